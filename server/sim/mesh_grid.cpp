@@ -23,32 +23,53 @@ glm::uvec3 cellsFor(const glm::dvec3& size, double width) {
     return glm::uvec3(glm::max(glm::ceil(size / width), glm::dvec3(1)));
 }
 
-// The cells that a triangle comes near to.
+// The cells that clusters come near to.
 class NearCells {
   public:
-    NearCells(const scene::Mesh& mesh, const MeshGrid& grid) : mesh_(mesh), grid_(grid) {}
+    NearCells(const scene::Mesh& mesh, const MeshClusters& clusters, const MeshGrid& grid)
+        : mesh_(mesh), clusters_(clusters), grid_(grid) {}
 
+    // Calls `visit` with each cell of a cluster. A cluster counts as its box, a single triangle as itself.
     template <class Visit>
-    void visit(std::uint32_t t, Visit visit) const {
-        const glm::dvec3& a = mesh_.corner(t, 0);
-        const glm::dvec3& b = mesh_.corner(t, 1);
-        const glm::dvec3& c = mesh_.corner(t, 2);
-        const glm::uvec3 from = cellAt(glm::min(a, glm::min(b, c)) - grid_.reach);
-        const glm::uvec3 to = cellAt(glm::max(a, glm::max(b, c)) + grid_.reach);
-        const double reach = grid_.reach + 0.5 * std::sqrt(3.0) * grid_.width;
-        const glm::dvec3 normal = glm::abs(mesh_.normal(t));
-        const double slab = 1.001 * (grid_.reach + 0.5 * grid_.width * (normal.x + normal.y + normal.z)) + flatness();
-        for (unsigned z = from.z; z <= to.z; ++z)
-            for (unsigned y = from.y; y <= to.y; ++y)
-                for (unsigned x = from.x; x <= to.x; ++x) {
-                    const glm::dvec3 centre = grid_.low + grid_.width * (glm::dvec3(x, y, z) + 0.5);
-                    if (std::abs(glm::dot(mesh_.normal(t), centre - a)) > slab) continue;
-                    if (glm::distance(centre, scene::nearestOn(a, b, c, centre)) > 1.001 * reach) continue;
-                    visit(x + std::size_t{grid_.cells.x} * (y + std::size_t{grid_.cells.y} * z));
-                }
+    void visit(const MeshClusters::Cluster& cluster, const Visit& visit) const {
+        visitRange(cluster, cellAt(cluster.low - grid_.reach), cellAt(cluster.high + grid_.reach), visit);
     }
 
   private:
+    // The same for the cells from `from` to `to`. Halves the range along its longest side.
+    template <class Visit>
+    void visitRange(const MeshClusters::Cluster& cluster, const glm::uvec3& from, const glm::uvec3& to,
+                    const Visit& visit) const {
+        const glm::dvec3 half = 0.5 * grid_.width * (glm::dvec3(to - from) + 1.0);
+        const glm::dvec3 centre = grid_.low + grid_.width * glm::dvec3(from) + half;
+        const bool near = cluster.count > 1 ? isNearBox(cluster, centre, half)
+                                            : isNearTriangle(clusters_.order[cluster.first], centre, half);
+        if (!near) return;
+        if (from == to)
+            return visit(from.x + std::size_t{grid_.cells.x} * (from.y + std::size_t{grid_.cells.y} * from.z));
+        const int axis = half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
+        glm::uvec3 middle = to;
+        middle[axis] = from[axis] + (to[axis] - from[axis]) / 2;
+        visitRange(cluster, from, middle, visit);
+        glm::uvec3 next = from;
+        next[axis] = middle[axis] + 1;
+        visitRange(cluster, next, to, visit);
+    }
+
+    [[nodiscard]] bool isNearBox(const MeshClusters::Cluster& cluster, const glm::dvec3& centre,
+                                 const glm::dvec3& half) const {
+        const glm::dvec3 gap = glm::max(glm::max(cluster.low - centre, centre - cluster.high) - half, glm::dvec3(0));
+        return glm::length(gap) <= 1.001 * grid_.reach;
+    }
+
+    [[nodiscard]] bool isNearTriangle(std::uint32_t t, const glm::dvec3& centre, const glm::dvec3& half) const {
+        const glm::dvec3 normal = glm::abs(mesh_.normal(t));
+        const double slab = 1.001 * (grid_.reach + glm::dot(normal, half)) + flatness();
+        if (std::abs(glm::dot(mesh_.normal(t), centre - mesh_.corner(t, 0))) > slab) return false;
+        const glm::dvec3 nearest = scene::nearestOn(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), centre);
+        return glm::distance(centre, nearest) <= 1.001 * (grid_.reach + glm::length(half));
+    }
+
     // The corners of a triangle lie near the plane of its patch.
     [[nodiscard]] double flatness() const { return 1e-5 * std::max({mesh_.half.x, mesh_.half.y, mesh_.half.z}); }
 
@@ -58,30 +79,31 @@ class NearCells {
     }
 
     const scene::Mesh& mesh_;
+    const MeshClusters& clusters_;
     const MeshGrid& grid_;
 };
 
 // Fills the lists of the cells. Returns false if there are more than `most` entries.
-bool fill(const scene::Mesh& mesh, MeshGrid& grid, std::size_t most) {
-    const NearCells near(mesh, grid);
-    const auto triangles = static_cast<std::uint32_t>(mesh.corners.size());
+bool fill(const scene::Mesh& mesh, const MeshClusters& clusters, MeshGrid& grid, std::size_t most) {
+    const NearCells near(mesh, clusters, grid);
+    const auto count = static_cast<std::uint32_t>(clusters.clusters.size());
     std::vector<std::uint32_t> cellOf;
-    std::vector<std::uint32_t> end(triangles);
+    std::vector<std::uint32_t> end(count);
     const std::size_t cells = std::size_t{grid.cells.x} * grid.cells.y * grid.cells.z;
     grid.first.assign(cells + 1, 0);
-    for (std::uint32_t t = 0; t < triangles; ++t) {
-        near.visit(t, [&](std::size_t cell) {
+    for (std::uint32_t k = 0; k < count; ++k) {
+        near.visit(clusters.clusters[k], [&](std::size_t cell) {
             cellOf.push_back(static_cast<std::uint32_t>(cell));
             ++grid.first[cell + 1];
         });
         if (cellOf.size() > most) return false;
-        end[t] = static_cast<std::uint32_t>(cellOf.size());
+        end[k] = static_cast<std::uint32_t>(cellOf.size());
     }
     for (std::size_t cell = 0; cell < cells; ++cell) grid.first[cell + 1] += grid.first[cell];
     std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-    grid.triangles.resize(cellOf.size());
-    for (std::uint32_t t = 0, entry = 0; t < triangles; ++t)
-        for (; entry < end[t]; ++entry) grid.triangles[next[cellOf[entry]]++] = t;
+    grid.clusters.resize(cellOf.size());
+    for (std::uint32_t k = 0, entry = 0; k < count; ++k)
+        for (; entry < end[k]; ++entry) grid.clusters[next[cellOf[entry]]++] = k;
     return true;
 }
 
@@ -121,9 +143,7 @@ void findSteps(MeshGrid& grid) {
 
 }  // namespace
 
-MeshGrid MeshGrid::around(const scene::Mesh& mesh, double reach) {
-    // A scene may have no spheres yet.
-    reach = std::max(reach, 1e-4 * glm::length(mesh.half));
+MeshGrid MeshGrid::around(const scene::Mesh& mesh, const MeshClusters& clusters, double reach) {
     MeshGrid grid;
     grid.reach = reach;
     grid.low = -mesh.half - reach;
@@ -137,7 +157,7 @@ MeshGrid MeshGrid::around(const scene::Mesh& mesh, double reach) {
         if (counts.x * counts.y * counts.z > static_cast<double>(cells)) continue;
         grid.cells = cellsFor(size, grid.width);
         const bool one = grid.cells == glm::uvec3(1);
-        if (fill(mesh, grid, one ? std::numeric_limits<std::size_t>::max() : entries)) break;
+        if (fill(mesh, clusters, grid, one ? std::numeric_limits<std::size_t>::max() : entries)) break;
     }
     findSteps(grid);
     return grid;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <mutex>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,6 +11,7 @@
 #include "scene/mesh/mesh.h"
 #include "scene/shapes.h"
 #include "sim/layout.h"
+#include "sim/mesh_clusters.h"
 #include "sim/mesh_grid.h"
 
 namespace spherule::sim {
@@ -41,15 +43,19 @@ class MeshWriter {
     MeshWriter(const scene::Mesh& mesh, bool smooth, Words& words, std::uint32_t base, std::uint32_t& nextKey)
         : mesh_(mesh), smooth_(smooth), words_(words), base_(base), nextKey_(nextKey) {}
 
-    std::uint32_t write(const MeshGrid& grid, std::uint32_t& cellsAt) {
+    // Sets the addresses of the row.
+    void write(const MeshClusters& clusters, const MeshGrid& grid, MeshTables::Row& row) {
         numberFaces();
         findOwners();
+        putInOrder(clusters);
         writeEdges();
         writeVertices();
         const std::uint32_t trianglesAt = here();
-        writeTriangles();
-        writeCells(grid, cellsAt);
-        return trianglesAt;
+        for (const std::uint32_t triangle : clusters.order) writeTriangle(triangle);
+        row.clustersAt = here();
+        writeClusters(clusters, trianglesAt);
+        row.cellsAt = here();
+        writeCells(grid);
     }
 
   private:
@@ -86,9 +92,29 @@ class MeshWriter {
         return glm::normalize(glm::cross(along, mesh_.normal(triangle)));
     }
 
+    // Edges and vertices lie in memory as the clusters use them, so that what a sphere reads is together.
+    void putInOrder(const MeshClusters& clusters) {
+        placeOf_.assign(mesh_.edges.size(), scene::Mesh::none);
+        std::vector<bool> seen(mesh_.vertices.size());
+        for (const std::uint32_t t : clusters.order) {
+            for (const std::uint32_t word : mesh_.edgesOf[t]) {
+                if (placeOf_[word / 2] != scene::Mesh::none) continue;
+                placeOf_[word / 2] = static_cast<std::uint32_t>(edges_.size());
+                edges_.push_back(word / 2);
+            }
+            for (const std::uint32_t corner : mesh_.corners[t]) {
+                if (seen[corner]) continue;
+                seen[corner] = true;
+                vertices_.push_back(corner);
+            }
+        }
+    }
+
+    [[nodiscard]] std::uint32_t addressOf(std::uint32_t edge) const { return edgesAt_ + placeOf_[edge] * EDGE_WORDS; }
+
     void writeEdges() {
         edgesAt_ = here();
-        for (std::uint32_t k = 0; k < mesh_.edges.size(); ++k) {
+        for (const std::uint32_t k : edges_) {
             const scene::Mesh::Edge& edge = mesh_.edges[k];
             const glm::dvec3& from = mesh_.vertices[edge.vertices[0]];
             const glm::dvec3 along = mesh_.vertices[edge.vertices[1]] - from;
@@ -118,9 +144,9 @@ class MeshWriter {
         std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
         for (std::uint32_t k = 0; k < mesh_.edges.size(); ++k)
             for (std::uint32_t end = 0; end < 2; ++end)
-                fan[next[mesh_.edges[k].vertices[end]]++] = 2 * (edgesAt_ + k * EDGE_WORDS) + end;
+                fan[next[mesh_.edges[k].vertices[end]]++] = 2 * addressOf(k) + end;
         vertexAt_.assign(count, 0);
-        for (std::size_t v = 0; v < count; ++v) {
+        for (const std::uint32_t v : vertices_) {
             if (!meets[v]) continue;
             vertexAt_[v] = here();
             put(words_, mesh_.vertices[v]);
@@ -131,34 +157,37 @@ class MeshWriter {
         }
     }
 
-    void writeTriangles() {
-        for (std::uint32_t t = 0; t < mesh_.corners.size(); ++t) {
-            const scene::Mesh::Patch& patch = mesh_.patches[mesh_.patchOf[t]];
-            put(words_, patch.normal);
-            put(words_, patch.offset);
-            words_.push_back(keyOf(t));
-            words_.push_back(mesh_.closed() ? 1 : 0);
-            for (const std::uint32_t word : mesh_.edgesOf[t])
-                words_.push_back(2 * (edgesAt_ + word / 2 * EDGE_WORDS) + word % 2);
-            for (const std::uint32_t corner : mesh_.corners[t])
-                words_.push_back(owner_[corner] == t ? vertexAt_[corner] : 0);
-            writeBall(t);
-        }
-    }
-
-    // A ball around the box of the triangle.
-    void writeBall(std::uint32_t t) {
+    void writeTriangle(std::uint32_t t) {
+        const scene::Mesh::Patch& patch = mesh_.patches[mesh_.patchOf[t]];
+        put(words_, patch.normal);
+        put(words_, patch.offset);
+        words_.push_back(keyOf(t));
+        words_.push_back(mesh_.closed() ? 1 : 0);
+        for (const std::uint32_t word : mesh_.edgesOf[t]) words_.push_back(2 * addressOf(word / 2) + word % 2);
+        for (const std::uint32_t corner : mesh_.corners[t])
+            words_.push_back(owner_[corner] == t ? vertexAt_[corner] : 0);
         const glm::dvec3 low = glm::min(mesh_.corner(t, 0), glm::min(mesh_.corner(t, 1), mesh_.corner(t, 2)));
         const glm::dvec3 high = glm::max(mesh_.corner(t, 0), glm::max(mesh_.corner(t, 1), mesh_.corner(t, 2)));
         const glm::dvec3 centre = 0.5 * (low + high);
         double radius = 0;
         for (unsigned k = 0; k < 3; ++k) radius = std::max(radius, glm::distance(centre, mesh_.corner(t, k)));
         put(words_, centre);
-        put(words_, radius * 1.00001 + 1e-6 * glm::length(mesh_.half));
+        put(words_, radius * 1.00001 + rounding());
     }
 
-    void writeCells(const MeshGrid& grid, std::uint32_t& cellsAt) {
-        cellsAt = here();
+    // Returns by how much balls and boxes are larger than their content (m): coordinates are float32.
+    [[nodiscard]] double rounding() const { return 1e-6 * glm::length(mesh_.half); }
+
+    void writeClusters(const MeshClusters& clusters, std::uint32_t trianglesAt) {
+        for (const MeshClusters::Cluster& one : clusters.clusters) {
+            put(words_, one.low - rounding());
+            put(words_, one.high + rounding());
+            words_.push_back(trianglesAt + one.first * TRIANGLE_WORDS);
+            words_.push_back(trianglesAt + (one.first + one.count) * TRIANGLE_WORDS);
+        }
+    }
+
+    void writeCells(const MeshGrid& grid) {
         const std::size_t cells = words_.size();
         words_.resize(cells + grid.count());
         for (std::size_t cell = 0; cell < grid.count(); ++cell) {
@@ -167,8 +196,8 @@ class MeshWriter {
                 continue;
             }
             words_[cells + cell] = here();
-            words_.insert(words_.end(), grid.triangles.begin() + grid.first[cell],
-                          grid.triangles.begin() + grid.first[cell + 1]);
+            words_.insert(words_.end(), grid.clusters.begin() + grid.first[cell],
+                          grid.clusters.begin() + grid.first[cell + 1]);
             words_.push_back(END_OF_LIST);
         }
     }
@@ -179,6 +208,9 @@ class MeshWriter {
     std::uint32_t base_;
     std::uint32_t& nextKey_;
     std::uint32_t edgesAt_ = 0;
+    std::vector<std::uint32_t> edges_;     // in the order of their addresses
+    std::vector<std::uint32_t> placeOf_;   // of edges, in edges_
+    std::vector<std::uint32_t> vertices_;  // in the order of their addresses
     std::vector<std::uint32_t> faceKey_;   // of patches
     std::vector<std::uint32_t> owner_;     // of vertices: their lowest triangle
     std::vector<std::uint32_t> vertexAt_;  // address; 0: spheres cannot touch it
@@ -194,10 +226,13 @@ std::shared_ptr<const MeshTables> made(const scene::Scene& scene, double largest
         const auto mesh = obstacle.shape->mesh();
         row.firstKey = nextKey;
         if (mesh) {
-            const MeshGrid grid = MeshGrid::around(*mesh, reachInRadii * largestRadius);
+            // A scene may have no spheres yet.
+            const double reach = std::max(reachInRadii * largestRadius, 1e-4 * glm::length(mesh->half));
+            const MeshClusters clusters = MeshClusters::of(*mesh, reach);
+            const MeshGrid grid = MeshGrid::around(*mesh, clusters, reach);
             row.a = glm::vec4(glm::dvec4(grid.low, 1 / grid.width));
             row.b = glm::vec4(glm::dvec4(grid.cells, grid.reach));
-            row.trianglesAt = MeshWriter(*mesh, smooth, tables->words, base, nextKey).write(grid, row.cellsAt);
+            MeshWriter(*mesh, smooth, tables->words, base, nextKey).write(clusters, grid, row);
         }
         row.endKey = nextKey;
         tables->rows.push_back(row);

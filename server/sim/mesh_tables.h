@@ -20,7 +20,7 @@ struct MeshTables {
         glm::vec4 a{};
         glm::vec4 b{};
         std::uint32_t cellsAt = 0;
-        std::uint32_t trianglesAt = 0;
+        std::uint32_t clustersAt = 0;
         std::uint32_t firstKey = 0;  // of its contacts
         std::uint32_t endKey = 0;
     };
@@ -31,9 +31,8 @@ struct MeshTables {
     [[nodiscard]] std::uint64_t bytes() const { return words.size() * sizeof(std::uint32_t); }
 };
 
-// Returns the tables for spheres up to a radius (m). While something uses the tables, the
-// next call for the same meshes returns them. Any
-// thread.
+// Returns the tables for spheres up to a radius (m). While something uses the tables, the next call for the same meshes
+// returns them. Any thread.
 std::shared_ptr<const MeshTables> meshTablesFor(const scene::Scene& scene, double largestRadius);
 
 }  // namespace spherule::sim

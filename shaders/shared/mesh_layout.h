@@ -2,14 +2,19 @@
 // in this buffer. Coordinates are in the frame of the obstacle (m).
 //
 // The row of the obstacle has the grid. a.xyz is its lowest corner, and a.w the reciprocal of the width of its cells
-// (1/m). b.xyz is the number of its cells along each axis, and b.w its reach (m). A cell knows all triangles within the
-// reach of its points.
-// `cellsAt` is the address of its cells, along x first. A cell is the address of its list: numbers of triangles in
-// ascending order, then END_OF_LIST. A cell without triangles has EMPTY_CELL, and bits of a distance (m): no point of
+// (1/m). b.xyz is the number of its cells along each axis, and b.w its reach (m). A cell knows all clusters of triangles
+// within the reach of its points.
+// `cellsAt` is the address of its cells, along x first. A cell is the address of its list: numbers of clusters in
+// ascending order, then END_OF_LIST. A cell without clusters has EMPTY_CELL, and bits of a distance (m): no point of
 // the cell is nearer to the mesh.
 #define EMPTY_CELL 0x80000000u
 
-// `trianglesAt` is the address of the triangles.
+// `clustersAt` is the address of the clusters (sim/mesh_clusters.h).
+#define CLUSTER_WORDS 8u
+#define CLUSTER_LOW 0u        // corners of the box around its triangles (m)
+#define CLUSTER_HIGH 3u
+#define CLUSTER_TRIANGLES 6u  // address of the first triangle, and behind the last one
+
 #define TRIANGLE_WORDS 16u
 #define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
 #define TRIANGLE_KEY 4u       // of a contact with the patch

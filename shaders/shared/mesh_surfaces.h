@@ -70,14 +70,16 @@ void findSides(mask within, uint triangle, real above) {
 
 // Finds the spheres that are near a triangle, and those that are above or below it.
 void findNear(mask where, uint triangle) {
-    real3 fromCentre = meshPoint - real3(meshVector(triangle + TRIANGLE_CENTRE));
-    real distance = sqrt(dot3(fromCentre, fromCentre)) - meshReal(triangle + TRIANGLE_CENTRE + 3u);
-    closeLanes = where && distance <= meshReach;
-    besideLanes = noLane();
-    if (!anyLane(closeLanes)) return;
     real height = dot3(meshPoint, real3(meshVector(triangle + TRIANGLE_NORMAL)));
     precise real above = height - meshReal(triangle + TRIANGLE_NORMAL + 3u);
-    closeLanes = closeLanes && abs(above) <= meshReach;
+    closeLanes = where && abs(above) <= meshReach;
+    besideLanes = noLane();
+    if (!anyLane(closeLanes)) return;
+    // The sphere reaches a disc of the plane.
+    real3 fromCentre = meshPoint - real3(meshVector(triangle + TRIANGLE_CENTRE));
+    real along = sqrt(max(dot3(fromCentre, fromCentre) - above * above, real(0.0f)));
+    real disc = sqrt(max((meshReach - above) * (meshReach + above), real(0.0f)));
+    closeLanes = closeLanes && along <= (disc + meshReal(triangle + TRIANGLE_CENTRE + 3u)) * 1.01f;
     if (!anyLane(closeLanes)) return;
     for (uint k = 0u; k < 3u; ++k) {
         uint word = obstacleLists[triangle + TRIANGLE_EDGES + k];
@@ -169,8 +171,19 @@ void visitTriangle(mask where, Obstacle mesh, uint triangle, bool leaves) {
     }
 }
 
+// Returns the spheres that may touch a triangle of a cluster.
+mask nearCluster(mask where, uint cluster) {
+    vec3 low = meshVector(cluster + CLUSTER_LOW);
+    vec3 high = meshVector(cluster + CLUSTER_HIGH);
+    real3 gap = meshPoint;
+    gap.x = max(max(low.x - meshPoint.x, meshPoint.x - high.x), real(0.0f));
+    gap.y = max(max(low.y - meshPoint.y, meshPoint.y - high.y), real(0.0f));
+    gap.z = max(max(low.z - meshPoint.z, meshPoint.z - high.z), real(0.0f));
+    return where && dot3(gap, gap) <= meshReach * meshReach;
+}
+
 // Returns the lists of the cells in which the centres are; the empty list for others.
-uints trianglesNear(mask where, Obstacle mesh) {
+uints clustersNear(mask where, Obstacle mesh) {
     real x = floor((meshPoint.x - mesh.a.x) * mesh.a.w);
     real y = floor((meshPoint.y - mesh.a.y) * mesh.a.w);
     real z = floor((meshPoint.z - mesh.a.z) * mesh.a.w);
@@ -192,26 +205,39 @@ void visitMesh(mask where, Obstacle mesh) {
     wayOut = uints(END_OF_LIST);
     nearestOutside = real(FAR_AWAY);
     nearestInside = real(-FAR_AWAY);
-    uints place = trianglesNear(where, mesh);
+    uints place = clustersNear(where, mesh);
     uints number = ROW(obstacleLists, place);
     bool leaves = false;
+    mask here = noLane();
+    uint triangle = 0u;  // address
+    uint end = 0u;       // behind the last triangle of the cluster
     while (true) {
-        uint least = leastOf(number);
-        if (least == END_OF_LIST && !leaves) {
-            // At the end, centres in the solid leave it through the nearest face.
-            leaves = true;
-            wayOut = select(-nearestInside < nearestOutside, wayOut, uints(END_OF_LIST));
+        if (triangle == end) {
+            uint least = leastOf(number);
+            if (least == END_OF_LIST && !leaves) {
+                // At the end, centres in the solid leave it through the nearest face.
+                leaves = true;
+                wayOut = select(-nearestInside < nearestOutside, wayOut, uints(END_OF_LIST));
+            }
+            if (leaves) {
+                triangle = leastOf(wayOut);
+                if (triangle == END_OF_LIST) break;
+                end = triangle + TRIANGLE_WORDS;
+                here = wayOut == triangle;
+                wayOut = select(here, uints(END_OF_LIST), wayOut);
+            } else {
+                here = number == least;
+                place = select(here, place + 1u, place);
+                number = ROW(obstacleLists, place);
+                uint cluster = mesh.clustersAt + least * CLUSTER_WORDS;
+                here = nearCluster(here, cluster);
+                if (!anyLane(here)) continue;
+                triangle = obstacleLists[cluster + CLUSTER_TRIANGLES];
+                end = obstacleLists[cluster + CLUSTER_TRIANGLES + 1u];
+            }
         }
-        if (leaves) least = leastOf(wayOut);
-        if (least == END_OF_LIST) break;
-        mask here = leaves ? wayOut == least : number == least;
-        visitTriangle(here, mesh, leaves ? least : mesh.trianglesAt + least * TRIANGLE_WORDS, leaves);
-        if (leaves) {
-            wayOut = select(here, uints(END_OF_LIST), wayOut);
-        } else {
-            place = select(here, place + 1u, place);
-            number = ROW(obstacleLists, place);
-        }
+        visitTriangle(here, mesh, triangle, leaves);
+        triangle += TRIANGLE_WORDS;
     }
     if (HAS(ACCURATE)) visitGathered(mesh);
 }
