@@ -142,6 +142,17 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     if (HAS(FRICTION)) oldTorque = ROW(wallTorque, row);
     heldTorque = select(held, real3(oldTorque), real3(0.0f, 0.0f, 0.0f));
     real mass = 1.0f / inverseMass;
+    real reduced = mass;  // of the sphere and the body that it touches
+    real reducedAcross = mass;
+    if (HAS(DRIVES) && driveRow != 0u) {
+        // Each contact has an equal share of the body, so that all together do not move it too far. After: Tonge,
+        // Benevolenski and Voroshilov, "Mass splitting for jitter-free parallel rigid body simulation", 2012.
+        float share = driveYield * float(max(surfaceSums[DRIVE_CONTACTS], 1u));
+        real along = dot3(driveLever, n);
+        real yield = along * along * share;
+        reduced = 1.0f / (inverseMass + yield);
+        reducedAcross = 1.0f / (inverseMass + max(dot3(driveLever, driveLever) * share - yield, real(0.0f)));
+    }
     real before = dot3(oldImpulse, n);
     real3 tangential = oldImpulse - n * before;
     precise real target = -max(separation, real(0.0f)) * params.perSubstep - recession;
@@ -181,10 +192,10 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
         target = select(impact, max(rebound + late, real(0.0f)), target);
     }
 
-    precise real normalImpulse = positivePart(before - mass * (speed - target));
+    precise real normalImpulse = positivePart(before - reduced * (speed - target));
     mask soft = isSoft(contact) && separation <= sphereRadius * SOFT_GAP && !impact;
     if (anyLane(soft))
-        normalImpulse = select(soft, softImpulse(before, mass, speed + recession, separation, sphereRadius), normalImpulse);
+        normalImpulse = select(soft, softImpulse(before, reduced, speed + recession, separation, sphereRadius), normalImpulse);
     mask touching = involved && (normalImpulse > 0.0f || held);
     touchesWalls = touchesWalls || touching;
     // Rigid walls push out fully, because they come after the pairs.
@@ -200,7 +211,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
         // Before friction: a contact at rest holds the torque of its friction, which rolling resistance bears.
         if (HAS(ROLLING)) resistRollingAtWall(touching, n, normalImpulse, contact);
         precise real3 slip = relativeVelocity() - n * speed - cross3(sphereSpin, n) * sphereRadius;
-        friction = frictionOfContact(tangential, slip, mass, frictionOf(contact) * normalImpulse);
+        friction = frictionOfContact(tangential, slip, reducedAcross, frictionOf(contact) * normalImpulse);
         torque = cross3(n, friction);
         sphereSpin = select(touching, sphereSpin - (torque - heldTorque) * lever, sphereSpin);
     }
@@ -210,9 +221,11 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     spherePoint = select(involved, spherePoint + shift, spherePoint);
 
     real3 impulse = n * normalImpulse + friction;
-    if (HAS(CONTACT_SUMS)) {
+    if (HAS(CONTACT_SUMS) || HAS(DRIVES)) {
         precise real3 moment = cross3(spherePoint, impulse) + momentOfRolling - torque * sphereRadius;
-        EACH_LANE_VECTORS(touching, addToSurfaceSums, sphereId, surface, impulse, moment)
+        if (HAS(CONTACT_SUMS)) EACH_LANE_VECTORS(touching, addToSurfaceSums, sphereId, surface, impulse, moment)
+        if (HAS(DRIVES) && driveRow != 0u)
+            EACH_LANE_VECTORS(touching, addToSurfaceSums, sphereId, driveRow, impulse, moment)
     }
     mask forgets = touching && (impact || !remembers);
     if (anyLane(forgets)) {
@@ -236,6 +249,10 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     mask stored = touching && remembers;
     mask holds = stored && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f);
     partsNow = select(holds, withPart(partsNow, surface), partsNow);
+    if (HAS(DRIVES) && driveRow != 0u) {
+        precise real3 moment = cross3(spherePoint, impulse) - torque * sphereRadius;
+        EACH_LANE_VECTORS(holds, addToSurfaceSums, sphereId, driveRow + 1u, impulse, moment)
+    }
     real4 kept = real4(impulse, select(holds, real(float(key + 1u)), real(0.0f)));
     SET_ROW(stored, wallImpulse, row, kept, remembered)
     if (HAS(FRICTION)) SET_ROW(stored, wallTorque, row, real4(torque, 0.0f), oldTorque)

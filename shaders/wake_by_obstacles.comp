@@ -32,6 +32,7 @@ vec3 velocityAlong() {
 
 void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface,
                   uint key) {
+    if (HAS(DRIVES) && driveRow != 0u) disturbed = disturbed || separation < wakeGap();
     float speed = sqrt(dot3(surfaceVelocity, surfaceVelocity));
     disturbed = disturbed || (speed > 0.0f && separation < wakeGap() + speed * params.substep);
 }

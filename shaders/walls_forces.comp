@@ -40,6 +40,7 @@ PRIVATE(vec3, impulseHere)  // of one wall, in scenes with contact sums (N s)
 PRIVATE(vec3, momentHere)   // the same about the centre of the sphere (N m s)
 PRIVATE(vec3, displacement)
 PRIVATE(float, sphereInverseMass)
+PRIVATE(float, inverseMassAlong)  // 1/kg: of the sphere and of the surface that is visited, along the surface
 PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere still touches
 
 #include "shared/contact_params.h"
@@ -76,11 +77,11 @@ void applySpringFriction(vec3 n, uint key, vec3 fall, float arm, Spring spring, 
     vec3 path = slip;
     if (HAS(GRAVITY) || HAS(FIELDS)) path = slip - (fall - n * dot3(fall, n));
     float lever = arm / sphereRadius;
-    vec3 impulse = tangentialImpulse(path, slip, sphereInverseMass * (1.0f + 2.5f * lever * lever), spring,
+    vec3 impulse = tangentialImpulse(path, slip, inverseMassAlong + sphereInverseMass * (2.5f * lever * lever), spring,
                                      frictionOf(contact));
     impulseSum = impulseSum + impulse;
     torque = torque - cross3(n, impulse) * arm;
-    if (HAS(CONTACT_SUMS)) {
+    if (HAS(CONTACT_SUMS) || HAS(DRIVES)) {
         impulseHere = impulseHere + impulse;
         precise vec3 moment = cross3(n, impulse) * -arm;
         momentHere = moment;
@@ -94,7 +95,7 @@ void applySpringFriction(vec3 n, uint key, vec3 fall, float arm, Spring spring, 
         vec3 rolling = rollingMoment(spin - n * about, c, rollingResistanceOf(contact) * maxMoment);
         vec3 spinning = spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment);
         torque = torque + rolling + spinning;
-        if (HAS(CONTACT_SUMS)) {
+        if (HAS(CONTACT_SUMS) || HAS(DRIVES)) {
             precise vec3 moment = momentHere + rolling + spinning;
             momentHere = moment;
         }
@@ -127,18 +128,26 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
     }
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY) || HAS(FIELDS)) fall = accelerationAt(spherePoint) * (0.5f * params.substep);
-    Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, sphereRadius, sphereInverseMass,
+    float inverseMass = sphereInverseMass;  // of the sphere and the body that it touches, across the surface
+    inverseMassAlong = sphereInverseMass;   // the same along it
+    if (HAS(DRIVES) && driveRow != 0u) {
+        float along = dot3(driveLever, normal);
+        inverseMass = inverseMass + driveYield * along * along;
+        inverseMassAlong = inverseMassAlong + driveYield * max(dot3(driveLever, driveLever) - along * along, 0.0f);
+    }
+    Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, sphereRadius, inverseMass,
                              contactParams[index].stiffness);
     impulseSum = impulseSum + normal * spring.impulse;
-    if (HAS(CONTACT_SUMS)) {
+    if (HAS(CONTACT_SUMS) || HAS(DRIVES)) {
         impulseHere = normal * spring.impulse;
         momentHere = vec3(0.0f, 0.0f, 0.0f);
     }
     if (HAS(FRICTION))
         applySpringFriction(normal, key, fall, sphereRadius - overlap, spring, contactParams[index].contact);
-    if (!HAS(CONTACT_SUMS)) return;
+    if (!HAS(CONTACT_SUMS) && !HAS(DRIVES)) return;
     precise vec3 moment = cross3(spherePoint, impulseHere) + momentHere;
-    addToSurfaceSums(sphereSlot, surface, impulseHere, moment);
+    if (HAS(CONTACT_SUMS)) addToSurfaceSums(sphereSlot, surface, impulseHere, moment);
+    if (HAS(DRIVES) && driveRow != 0u) addToSurfaceSums(sphereSlot, driveRow, impulseHere, moment);
 }
 
 #include "shared/mesh_layout.h"

@@ -68,7 +68,11 @@ void setBounds(v1::Scene& message, const Scene& scene, double time) {
         writeObstacle(one, obstacle);
         one.set_material(scene.materials[obstacle.material].name);
         // The scene begins where the motion is now.
-        if (obstacle.motion) one.mutable_motion()->set_begin(obstacle.motion->begin - time);
+        if (!obstacle.motion) continue;
+        if (const auto& drive = obstacle.motion->drive)
+            one.mutable_motion()->mutable_drive()->set_place(drive->placeAt(time));
+        else
+            one.mutable_motion()->set_begin(obstacle.motion->begin - time);
     }
     for (const Box& sink : scene.sinks) setBox(*message.add_sinks()->mutable_region(), sink);
 }

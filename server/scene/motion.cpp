@@ -87,6 +87,11 @@ Frame Pose::frame() const {
 }
 
 Pose Motion::poseAt(double time) const {
+    if (drive) {
+        const double place = drive->placeAt(time);
+        if (drive->turns) return {.turn = glm::angleAxis(place, drive->axis), .pivot = pivot};
+        return {.pivot = pivot, .shift = drive->axis * place};
+    }
     const double t = std::clamp(time - begin, 0.0, duration);
     Pose pose{.turn = turnBy(spin * t), .pivot = pivot, .shift = velocity * t + acceleration * (0.5 * t * t)};
     for (const Oscillation& one : oscillations) {
@@ -101,6 +106,7 @@ Pose Motion::poseAt(double time) const {
 }
 
 MotionSpeeds Motion::speeds() const {
+    if (drive) return drive->turns ? MotionSpeeds{.turn = drive->mostRate} : MotionSpeeds{.pivot = drive->mostRate};
     MotionSpeeds most{
         .pivot = glm::length(velocity), .turn = glm::length(spin), .acceleration = glm::length(acceleration)};
     if (most.acceleration > 0) most.pivot += most.acceleration * duration;
@@ -124,7 +130,8 @@ MotionSpeeds Motion::speeds() const {
 
 bool Motion::staysInPlace() const {
     const glm::dvec3 none(0);
-    return velocity == none && acceleration == none && spin == none && oscillations.empty() && keyframes.empty();
+    return !drive && velocity == none && acceleration == none && spin == none && oscillations.empty() &&
+           keyframes.empty();
 }
 
 namespace {
@@ -188,9 +195,14 @@ Motion readMotion(Check& check, const v1::Motion& message, const glm::dvec3& piv
         check.refuse(at(field, "duration"), "is missing, but `acceleration` needs one: the speed would grow for ever");
     readOscillations(check, message, field, motion);
     readKeyframes(check, message, field, motion);
+    if (message.has_drive()) {
+        if (!motion.staysInPlace() || message.begin() != 0 || message.has_duration())
+            check.refuse(at(field, "drive"), "is beside a prescribed motion; only `pivot` and `belt` go with it");
+        motion.drive = readDrive(check, message.drive(), motion.pivot, at(field, "drive"));
+    }
     if (check.ok() && motion.staysInPlace() && glm::length(motion.belt) == 0)
-        check.refuse(field,
-                     "moves nothing; give one of velocity, acceleration, spin, oscillations, keyframes and belt");
+        check.refuse(
+            field, "moves nothing; give one of velocity, acceleration, spin, oscillations, keyframes, belt and drive");
     return motion;
 }
 
@@ -224,6 +236,7 @@ void writeMotion(v1::Motion& message, const Motion& motion) {
     message.set_repeat(motion.repeat);
     message.set_begin(motion.begin);
     if (std::isfinite(motion.duration)) message.set_duration(motion.duration);
+    if (motion.drive) writeDrive(*message.mutable_drive(), *motion.drive);
 }
 
 }  // namespace spherule::scene

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene/drive.h"
 #include "scene/frame.h"
 
 namespace spherule::v1 {
@@ -50,7 +52,7 @@ struct MotionSpeeds {
     [[nodiscard]] double at(double distance) const { return pivot + turn * distance; }
 };
 
-// The motion of an obstacle: a function of the simulated time. See v1::Motion.
+// The motion of an obstacle: a function of the simulated time, except with a drive. See v1::Motion.
 struct Motion {
     glm::dvec3 velocity{};      // m/s
     glm::dvec3 acceleration{};  // m/s^2
@@ -62,7 +64,9 @@ struct Motion {
     glm::dvec3 belt{};  // m/s, in the coordinates of the obstacle's place in the scene
     double begin = 0;   // s
     double duration = std::numeric_limits<double>::infinity();  // s
+    std::optional<Drive> drive{};                               // then nothing but the belt moves it otherwise
 
+    // Returns the pose; with a drive, the one at which it would be if no force changed its rate.
     [[nodiscard]] Pose poseAt(double time) const;
     [[nodiscard]] MotionSpeeds speeds() const;
     // Returns true if only the belt moves.

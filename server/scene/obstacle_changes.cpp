@@ -17,7 +17,11 @@ namespace {
 
 // The message counts from now.
 void startAt(Obstacle& obstacle, double time) {
-    if (obstacle.motion) obstacle.motion->begin += time;
+    if (!obstacle.motion) return;
+    if (obstacle.motion->drive)
+        obstacle.motion->drive->since = time;
+    else
+        obstacle.motion->begin += time;
 }
 
 }  // namespace

@@ -96,6 +96,12 @@ double defaultSubsteps(const Scene& scene) {
 }
 
 Result<void> checkModel(const Scene& scene) {
+    if (scene.quality.model == Model::Fast)
+        for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
+            if (scene.obstacles[k].motion && scene.obstacles[k].motion->drive)
+                return fail(ErrorKind::Input, at(at("obstacles", k), "motion.drive"),
+                            "needs the model balanced or accurate: fast holds no body up by its contacts",
+                            Cause::NotSuited);
     if (scene.quality.model != Model::Accurate || !followsHertz(scene)) return {};
     for (std::size_t k = 0; k < scene.materials.size(); ++k)
         if (!(scene.materials[k].young > 0))

@@ -192,7 +192,8 @@ double fastestImpact(const Scene& scene, const Extremes& extremes) {
 
 constexpr double solid = 0.6;  // share of a pile's volume
 
-// Returns the pressure (Pa) of all spheres, spread over the ground; 0 if there is no ground.
+// Returns the pressure (Pa) of all spheres and of bodies that press them, spread over the ground; 0 if there is no
+// ground.
 double pressureOfPile(const Scene& scene, const Extremes& extremes) {
     const double g = glm::length(scene.forces.gravity);
     if (!(g > 0) || !hasSurfaces(scene)) return 0;
@@ -200,7 +201,11 @@ double pressureOfPile(const Scene& scene, const Extremes& extremes) {
     const glm::dvec3 down = glm::abs(scene.forces.gravity) / g;
     const double across = extent.x * extent.y * extent.z / glm::dot(extent, down);
     const double height = std::min(extremes.volume / solid / across, glm::dot(extent, down));
-    return solid * extremes.densest * g * height;
+    double pressed = 0;  // N, by bodies that slide
+    for (const Obstacle& obstacle : scene.obstacles)
+        if (obstacle.motion && obstacle.motion->drive && !obstacle.motion->drive->turns)
+            pressed += std::abs(obstacle.motion->drive->forceAt(scene.forces.gravity, obstacle.motion->pivot));
+    return solid * extremes.densest * g * height + pressed / across;
 }
 
 // Returns the modulus (Pa) for the scene's wanted overlap, for two equal spheres or for a sphere and a wall.

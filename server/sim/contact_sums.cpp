@@ -42,24 +42,29 @@ LoadUnits LoadUnits::of(const scene::Scene& scene) {
     return {.impulse = std::ldexp(1, impulse), .moment = std::ldexp(1, moment)};
 }
 
-void addSurfaceLoads(ContactSums& sum, Pipeline& pipeline, const LoadUnits& units) {
+SurfaceLoad surfaceLoadIn(std::span<const std::uint32_t> words, const LoadUnits& units) {
+    std::array<std::uint64_t, SURFACE_SUM_WORDS / 2> components{};
+    for (std::size_t copy = 0; copy < SURFACE_SUM_COPIES; ++copy)
+        for (std::size_t k = 0; k < components.size(); ++k) {
+            const std::size_t word = copy * SURFACE_SUM_WORDS + 2 * k;
+            components[k] += words[word] | std::uint64_t{words[word + 1]} << 32U;
+        }
+    // The device counts what the spheres get.
+    const auto value = [&](std::size_t k) { return -static_cast<double>(static_cast<std::int64_t>(components[k])); };
+    return {glm::dvec3(value(0), value(1), value(2)) * units.impulse,
+            glm::dvec3(value(3), value(4), value(5)) * units.moment};
+}
+
+void addSurfaceLoads(ContactSums& sum, std::size_t surfaces, Pipeline& pipeline, const LoadUnits& units) {
     if (!pipeline.plan().has(Array::SurfaceSums)) return;
-    std::vector<std::uint32_t> words = pipeline.read<std::uint32_t>(Array::SurfaceSums);
-    constexpr std::size_t surfaceWords = std::size_t{SURFACE_SUM_COPIES} * SURFACE_SUM_WORDS;
-    sum.loads.resize(words.size() / surfaceWords);
-    for (std::size_t surface = 0; surface < sum.loads.size(); ++surface) {
-        std::array<std::uint64_t, SURFACE_SUM_WORDS / 2> components{};
-        for (std::size_t copy = 0; copy < SURFACE_SUM_COPIES; ++copy)
-            for (std::size_t k = 0; k < components.size(); ++k) {
-                const std::size_t word = surface * surfaceWords + copy * SURFACE_SUM_WORDS + 2 * k;
-                components[k] += words[word] | std::uint64_t{words[word + 1]} << 32U;
-            }
-        // The device counts what the spheres get.
-        const auto value = [&](std::size_t k) {
-            return -static_cast<double>(static_cast<std::int64_t>(components[k]));
-        };
-        sum.loads[surface].impulse += glm::dvec3(value(0), value(1), value(2)) * units.impulse;
-        sum.loads[surface].moment += glm::dvec3(value(3), value(4), value(5)) * units.moment;
+    std::vector<std::uint32_t> words;
+    pipeline.readInto(words, Array::SurfaceSums, surfaces * surfaceSumWords);
+    sum.loads.resize(surfaces);
+    for (std::size_t surface = 0; surface < surfaces; ++surface) {
+        const SurfaceLoad load =
+            surfaceLoadIn(std::span(words).subspan(surface * surfaceSumWords, surfaceSumWords), units);
+        sum.loads[surface].impulse += load.impulse;
+        sum.loads[surface].moment += load.moment;
     }
     std::ranges::fill(words, 0U);
     pipeline.write<std::uint32_t>(Array::SurfaceSums, words);

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -39,11 +42,16 @@ struct LoadUnits {
     static LoadUnits of(const scene::Scene& scene);
 };
 
+// Words of the sums of a surface, with all copies.
+constexpr std::size_t surfaceSumWords = std::size_t{SURFACE_SUM_COPIES} * SURFACE_SUM_WORDS;
+// Returns what these words of Array::SurfaceSums say that spheres gave.
+SurfaceLoad surfaceLoadIn(std::span<const std::uint32_t> words, const LoadUnits& units);
+
 // Adds the sums of the device since the last call, and clears them there. Leaves `seconds` and the loads. Waits for the
 // device.
 void addContactSums(ContactSums& sum, Pipeline& pipeline);
 
-// Adds the loads of the surfaces since the last call, and clears them there. Waits for the device.
-void addSurfaceLoads(ContactSums& sum, Pipeline& pipeline, const LoadUnits& units);
+// Adds the loads of the first `surfaces` surfaces since the last call, and clears them there. Waits for the device.
+void addSurfaceLoads(ContactSums& sum, std::size_t surfaces, Pipeline& pipeline, const LoadUnits& units);
 
 }  // namespace spherule::sim

@@ -1,7 +1,10 @@
 #include "sim/obstacle_rows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <span>
+#include <utility>
 
 #include "sim/mesh_tables.h"
 
@@ -22,10 +25,18 @@ glm::dvec3 cayleyVector(const glm::dquat& turn) {
     return glm::dvec3(turn.x, turn.y, turn.z) / turn.w;
 }
 
+// Returns the rate of a driven body at the end of `times`, over its largest one, if no sphere touches it.
+double shareOfMostRate(const scene::Motion& motion, const scene::Scene& scene, const TimeSpan& times) {
+    const scene::Drive& drive = *motion.drive;
+    const double gained = std::abs(drive.forceAt(scene.forces.gravity, motion.pivot)) / drive.inertia;
+    return std::min((std::abs(drive.rate) + gained * (times.end - times.begin)) / drive.mostRate, 1.0);
+}
+
 }  // namespace
 
 ObstacleRows::ObstacleRows(const scene::Scene& scene, const MeshTables* meshes) : centre_(scene.bounds.centre()) {
     std::uint32_t surface = scene::faceCount;
+    std::uint32_t drive = scene::surfacesOf(scene);
     for (const scene::Obstacle& obstacle : scene.obstacles) {
         // A body that moves lies in a frame about its pivot.
         const glm::dvec3 origin = obstacle.motion ? obstacle.motion->pivot : centre_;
@@ -38,15 +49,18 @@ ObstacleRows::ObstacleRows(const scene::Scene& scene, const MeshTables* meshes) 
             to.a = mesh.a;
             to.b = mesh.b;
             to.cellsAt = mesh.cellsAt;
-            to.trianglesAt = mesh.trianglesAt;
+            to.clustersAt = mesh.clustersAt;
         }
         to.shape = static_cast<std::uint32_t>(obstacle.shape->kind());
         to.parts = obstacle.shape->parts();
         to.surface = surface;
         to.material = obstacle.material;
         if (row.frame) setFrame(to, *row.frame);
-        if (obstacle.motion)
-            moving_.push_back({rows_.size(), row.frame.value_or(scene::Frame()), obstacle.largestSpeed(scene.bounds)});
+        if (obstacle.motion) {
+            Moving moving{rows_.size(), row.frame.value_or(scene::Frame()), obstacle.largestSpeed(scene.bounds)};
+            if (obstacle.motion->drive) moving.drive = std::exchange(drive, drive + DRIVE_SUM_ROWS);
+            moving_.push_back(moving);
+        }
         rows_.push_back(to);
         surface += to.parts;
     }
@@ -72,14 +86,22 @@ void ObstacleRows::place(const scene::Scene& scene, const TimeSpan& times, doubl
         motion.b = glm::vec4(glm::dvec4(to.shift - from.shift, 0));
         motion.frameX = glm::vec4(glm::dvec4(cayleyVector(to.turn * glm::conjugate(from.turn)), 0));
         motion.frameY = glm::vec4(glm::dvec4(at.turn * moves.belt, 0));
+        if (!moves.drive) continue;
+        motion.frameZ = glm::vec4(glm::dvec4(moves.drive->axis, 1 / moves.drive->inertia));
+        motion.shape = moves.drive->turns ? DRIVE_TURNS : DRIVE_SLIDES;
+        motion.surface = moving_[k].drive;
     }
 }
 
 double ObstacleRows::fastestIn(const scene::Scene& scene, const TimeSpan& times) const {
     double fastest = 0;
-    for (const Moving& moving : moving_)
-        if (scene.obstacles[moving.obstacle].motion->runsBetween(times.begin, times.end))
+    for (const Moving& moving : moving_) {
+        const scene::Motion& motion = *scene.obstacles[moving.obstacle].motion;
+        if (motion.drive)
+            fastest = std::max(fastest, moving.largestSpeed * shareOfMostRate(motion, scene, times));
+        else if (motion.runsBetween(times.begin, times.end))
             fastest = std::max(fastest, moving.largestSpeed);
+    }
     return fastest;
 }
 

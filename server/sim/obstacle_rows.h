@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "scene/scene.h"
@@ -40,6 +41,7 @@ class ObstacleRows {
         std::size_t obstacle = 0;
         scene::Frame local{};     // of the shape, relative to the pivot
         double largestSpeed = 0;  // of a point of its surface, m/s
+        std::uint32_t drive = 0;  // the first row of its sums; 0: it has no drive
     };
 
     glm::dvec3 centre_;  // m: of the bounds

@@ -101,8 +101,8 @@ class Pipeline {
         return row;
     }
 
-    // Returns an array as elements of T, at most the first `most`. Empty if the plan has no such array. Waits for the
-    // device.
+    // Returns an array as elements of T, at most `most` from `first` on. Empty if the plan has no such array. Waits for
+    // the device.
     template <class T>
     std::vector<T> read(Array array, std::size_t most = SIZE_MAX) {
         std::vector<T> values;
@@ -110,9 +110,11 @@ class Pipeline {
         return values;
     }
     template <class T>
-    void readInto(std::vector<T>& values, Array array, std::size_t most = SIZE_MAX) {
-        values.resize(std::min(static_cast<std::size_t>(plan_.bytesOf(array)) / sizeof(T), most));
-        if (!values.empty()) device_.download(buffer(array), 0, std::as_writable_bytes(std::span(values)));
+    void readInto(std::vector<T>& values, Array array, std::size_t most = SIZE_MAX, std::size_t first = 0) {
+        const std::size_t all = static_cast<std::size_t>(plan_.bytesOf(array)) / sizeof(T);
+        values.resize(std::min(all - std::min(first, all), most));
+        if (!values.empty())
+            device_.download(buffer(array), first * sizeof(T), std::as_writable_bytes(std::span(values)));
     }
     template <class T>
     void write(Array array, std::span<const T> values, std::size_t first = 0) {

@@ -5,6 +5,7 @@
 
 #include "scene/load.h"
 #include "scene/shapes.h"
+#include "sim/drives.h"
 #include "sim/layout.h"
 #include "sim/mesh_tables.h"
 #include "sim/modules/module.h"
@@ -92,7 +93,7 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::PullRow:
             return std::uint64_t{MOST_PULLS} * PULL_ROWS;
         case Extent::SurfaceSumWord:
-            return std::uint64_t{scene::surfacesOf(scene)} * SURFACE_SUM_COPIES * SURFACE_SUM_WORDS;
+            return std::uint64_t{scene::surfacesOf(scene)} * surfaceSumWords + driveSumWords(scene);
         case Extent::InspectedWord:
             return 1 + 2 * std::uint64_t{INSPECTED_MOST};
     }

@@ -12,6 +12,7 @@
 #include "core/log.h"
 #include "scene/load.h"
 #include "scene/quality.h"
+#include "scene/shapes.h"
 #include "sim/memory_needs.h"
 #include "sim/parameters.h"
 #include "sim/preparation.h"
@@ -47,7 +48,7 @@ std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> prepar
 void Simulation::takeContactSums() {
     if (!hasContactSums()) return;
     addContactSums(contactSums_, *pipeline_);
-    addSurfaceLoads(contactSums_, *pipeline_, loadUnits_);
+    addSurfaceLoads(contactSums_, scene::surfacesOf(scene_), *pipeline_, loadUnits_);
     contactSums_.seconds = time() - sumsBegin_;
 }
 
@@ -59,9 +60,10 @@ void Simulation::closeContactSums() {
 
 // Begins a stretch of contact sums, in units that suit the present spheres.
 void Simulation::openContactSums() {
-    if (!hasContactSums()) return;
+    if (!hasContactSums() && !drives_->any()) return;
     loadUnits_ = LoadUnits::of(scene_);
     uploadParameters();
+    if (!hasContactSums()) return;
     elasticBefore_ = measure(*pipeline_, scene_).elasticEnergy;
 }
 
@@ -87,6 +89,8 @@ void Simulation::install(Preparation& preparation) {
             steps_, resolved->before, scene::nameOf(scene_.quality.model), resolved->after, resolved->sweeps));
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
     obstacleRows_.emplace(scene_, plan().meshes.get());
+    drives_.emplace(scene_, plan());
+    drives_->startAt(scene_, time());
     useSubsteps(scene_.quality.substeps);
     limitMotionOf(preparation.built_.state);
     openContactSums();
@@ -191,8 +195,10 @@ Result<bool> Simulation::advance() {
     }
     // `balanced` solves the contacts before the spheres move.
     const TimeSpan times = nextSubstep();
+    if (drives_->any()) drives_->predict(scene_, times);
     placeObstacles(scene_.quality.model == scene::Model::Balanced ? times.begin : times.end);
     pipeline_->substep(stepObserved_);
+    if (drives_->any()) drives_->advance(scene_, times, *pipeline_, loadUnits_);
     if (--substepsLeft_ > 0) return false;
     pipeline_->endStep();
     ++steps_;
@@ -225,7 +231,8 @@ Statistics Simulation::statistics() {
 Result<void> Simulation::checkStep() {
     readCounters();  // waits for the step; if the device was lost in it, status() fails and the counters are invalid
     if (auto alive = device_.status(); !alive) return alive;
-    if (hasContactSums()) addSurfaceLoads(contactSums_, *pipeline_, loadUnits_);  // keeps them far within 64 bits
+    if (hasContactSums())  // keeps them far within 64 bits
+        addSurfaceLoads(contactSums_, scene::surfacesOf(scene_), *pipeline_, loadUnits_);
     if (counters_.sampled > 0 && !std::exchange(noticedSampled_, true))
         notices_.push_back(fmt::format(
             "at step {}, {} cell groups are so crowded that in a substep each sphere meets only some of the others",
@@ -253,6 +260,7 @@ Result<void> Simulation::checkStep() {
 void Simulation::saveLastFinite() {
     pipeline_->download(lastFinite_);
     lastFiniteStep_ = steps_;
+    lastFiniteDrives_ = drives_->states(scene_);
     lastFiniteSpheres_.reset();
     takeContactSums();  // also keeps the sums of the device short
     lastFiniteSums_ = contactSums_;
@@ -287,6 +295,7 @@ void Simulation::rollback() {
     }
     upload(inIdOrder(lastFinite_, population_));
     steps_ = lastFiniteStep_;
+    drives_->restore(scene_, lastFiniteDrives_, time());
     counters_ = {};
     contactSums_ = lastFiniteSums_;
     const double elasticBefore = elasticBefore_;

@@ -11,6 +11,7 @@
 #include "core/memory.h"
 #include "scene/scene.h"
 #include "sim/commands.h"
+#include "sim/drives.h"
 #include "sim/obstacle_rows.h"
 #include "sim/pipeline.h"
 #include "sim/plan.h"
@@ -183,6 +184,7 @@ class Simulation {
     scene::Scene scene_;
     RadiusStats radii_;
     std::optional<ObstacleRows> obstacleRows_;
+    std::optional<Drives> drives_;
     std::unique_ptr<Pipeline> pipeline_;
     Population population_;
     Counters counters_;
@@ -209,6 +211,7 @@ class Simulation {
     std::vector<std::string> notices_;
     SlotState lastFinite_;  // the last state that was found finite
     std::uint64_t lastFiniteStep_ = 0;
+    std::vector<scene::Drive> lastFiniteDrives_;
     // The spheres of that state, kept when spheres are added or removed after it.
     struct Spheres {
         Population population;

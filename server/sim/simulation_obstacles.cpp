@@ -41,6 +41,17 @@ std::vector<std::optional<std::uint32_t>> newSurfaces(const scene::Scene& before
     return surfaces;
 }
 
+// Gives the driven bodies of `after` their present states. `changed`: the number of the obstacle that was added,
+// replaced or removed.
+void continueDrives(const std::vector<scene::Obstacle>& before, std::vector<scene::Obstacle>& after,
+                    std::size_t changed) {
+    const bool removed = after.size() < before.size();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        if (k == changed || !before[k].motion || !before[k].motion->drive) continue;
+        after[k - (removed && k > changed ? 1 : 0)].motion->drive = before[k].motion->drive;
+    }
+}
+
 }  // namespace
 
 // Returns the substep that is next, in s simulated.
@@ -88,6 +99,7 @@ Result<Simulation::Outcome> Simulation::changeObstacle(const ChangeObstacle& cha
         obstacles.erase(obstacles.begin() + static_cast<std::ptrdiff_t>(number));
     }
     if (auto fits = scene::checkObstacles(changed); !fits) return tl::unexpected(refused(fits.error()));
+    if (auto fits = scene::checkModel(changed); !fits) return tl::unexpected(refused(fits.error()));
     if (auto fits = scene::fitSubsteps(changed); !fits) return tl::unexpected(refused(fits.error()));
     edit.surfaces = newSurfaces(scene_, changed, number);
     return Outcome{.preparation =
@@ -140,11 +152,13 @@ void Simulation::continueWith(Preparation& preparation) {
     });
     pipeline_ = std::move(preparation.pipeline_);
     wakeAt(preparation.edit_.places);
+    continueDrives(scene_.obstacles, preparation.built_.scene.obstacles, edit.number);
     scene_ = std::move(preparation.built_.scene);
     writeConstants(*pipeline_, scene_);
     claim_ = std::move(preparation.claim_);
     settleClaim(claim_, device_, plan());
     obstacleRows_.emplace(scene_, plan().meshes.get());
+    drives_.emplace(scene_, plan());
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
     useSubsteps(std::max(substeps_, scene_.quality.substeps));
     contactSums_.loads.clear();  // surfaces have other numbers

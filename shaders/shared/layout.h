@@ -85,14 +85,16 @@ struct Obstacle {
     uint framed;         // 1: it has a frame
     uint motion;         // the row of its motion; 0: it is at rest in this substep
     uint cellsAt;        // of a mesh: see mesh_layout.h
-    uint trianglesAt;
+    uint clustersAt;
 };
 
 // Behind the rows of the obstacles, `obstacles` has a row for the motion of each obstacle that may move. In these rows, a
 // is the pivot (m), and b its displacement in this substep (m). frameX is the rotation in this substep: its axis, of the
-// length of the tangent of half its angle. frameY is the velocity of the belt (m/s). (They are no struct of their own,
-// because finish_substep.comp binds as many buffers as a kernel may.) In `balanced`, frames and pivots are as they are at the
-// beginning of a substep, in the other models as at its end.
+// length of the tangent of half its angle. frameY is the velocity of the belt (m/s). A driven body (see v1::Drive) has its
+// axis in frameZ, with 1/mass (1/kg) or 1/inertia (1/(kg m^2)) as w. Its `shape` is DRIVE_SLIDES or DRIVE_TURNS. Its
+// `surface` is the first of its rows in `surfaceSums`. (They are no struct of their own, because finish_substep.comp binds
+// as many buffers as a kernel may.) In `balanced`, frames and pivots are as they are at the beginning of a substep, in
+// the other models as at its end.
 
 // The buffer obstacleLists has lists of numbers of obstacles in ascending order. It begins with an empty list and the
 // list of all obstacles. The words of meshes follow (mesh_layout.h), and then the lists of obstacles near spheres.
@@ -214,6 +216,11 @@ struct SphereStatistics {
 // Sums over the contacts with each surface (shared/surface_sums.h).
 #define SURFACE_SUM_COPIES 16u
 #define SURFACE_SUM_WORDS 12u   // impulse x y z, moment x y z: low and high words
+// Each driven body has further rows behind the surfaces. The first row sums what the spheres get from it, and the second
+// the part that contacts hold. The first word of the third row is the number of contacts.
+#define DRIVE_SUM_ROWS 3u
+#define DRIVE_SLIDES 1u
+#define DRIVE_TURNS 2u
 #define PAIR_PADDING 16u        // unused pairs behind each bundle: lanes beyond the last pair lie here
 
 // A sphere carries over at most this many contacts when the lists are rebuilt. A sphere touches at most 12 others that

@@ -4,10 +4,14 @@
 // The surface that is visited (shared/surfaces.h): 0 if it is at rest.
 PRIVATE(real3, surfaceVelocity)  // m/s, where the sphere touches it
 PRIVATE(real3, surfaceSpin)      // angular velocity (rad/s)
+PRIVATE(uint, driveRow)          // of a driven body: the first of its rows in `surfaceSums`; 0: it is none
+PRIVATE(real3, driveLever)       // the velocity of the touched place for a rate of 1: no unit, or m
+PRIVATE(float, driveYield)       // 1/kg or 1/(kg m^2)
 
 void setSurfaceAtRest() {
     surfaceVelocity = real3(0.0f, 0.0f, 0.0f);
     surfaceSpin = real3(0.0f, 0.0f, 0.0f);
+    if (HAS(DRIVES)) driveRow = 0u;
 }
 
 bool isMoving(Obstacle obstacle) {
@@ -100,4 +104,9 @@ ANY_REAL4 movedSurfaceAt(Obstacle obstacle, Obstacle motion, uint part, ANY_REAL
 void setSurfaceMotion(Obstacle motion, real3 point, real3 normal) {
     surfaceVelocity = velocityOfSurface(motion, point, normal);
     surfaceSpin = spinOf(motion, point);
+    if (!HAS(DRIVES)) return;
+    driveRow = motion.shape == 0u ? 0u : motion.surface;
+    driveYield = motion.frameZ.w;
+    driveLever = real3(motion.frameZ.x, motion.frameZ.y, motion.frameZ.z);
+    if (motion.shape == DRIVE_TURNS) driveLever = cross3(driveLever, fromPivot(motion, 0.0f, point));
 }

@@ -1,7 +1,11 @@
-// Sums over the contacts of the spheres with walls and obstacles, in scenes with contact sums. The sums are integers, so
+// Sums over the contacts of the spheres with walls and obstacles, in scenes with contact sums, and over those with driven
+// bodies. The sums are integers, so
 // that the order in which spheres add to them does not matter. The includer binds `surfaceSums`. Each surface has
 // SURFACE_SUM_COPIES rows of SURFACE_SUM_WORDS words, so that few invocations meet at one word. A component has two
 // words, low and high, of a number of 64 bits in two's complement.
+
+// The word with the number of contacts of the driven body that is visited.
+#define DRIVE_CONTACTS ((driveRow + 2u) * SURFACE_SUM_COPIES * SURFACE_SUM_WORDS)
 
 // A float cannot exceed this number of units, so that its bits fit.
 #define MOST_UNITS 4.0e18f

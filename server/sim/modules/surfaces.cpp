@@ -30,6 +30,11 @@ void addMovingBox(scene::Scene& scene) {
     scene.obstacles.back().motion = scene::Motion{.spin = {0, 0, 1}};
 }
 
+void addDrivenBox(scene::Scene& scene) {
+    addTurnedBox(scene);
+    scene.obstacles.back().motion = scene::Motion{.drive = scene::Drive{.mostRate = 1}};
+}
+
 void declareObstacles(PlanBuilder& plan) {
     plan.arrays({Array::ContactParams, Array::Obstacles, Array::ObstacleLists});
     if (!plan.has(Feature::Contacts)) return;
@@ -90,6 +95,23 @@ const Module moduleMotion{
             p.obstaclePath = static_cast<float>(fastest * from.substep);
         },
     .cost = {.name = "a moving obstacle", .without = addTurnedBox, .with = addMovingBox},
+};
+
+// An obstacle has a drive. The device sums its contacts, and the host integrates it (sim/drives.h).
+const Module moduleDrives{
+    .feature = Feature::Drives,
+    .required =
+        [](const scene::Scene& scene, const Features& /*others*/) {
+            return std::ranges::any_of(scene.obstacles, [](const scene::Obstacle& obstacle) {
+                return obstacle.motion && obstacle.motion->drive;
+            });
+        },
+    .declare =
+        [](PlanBuilder& plan) {
+            plan.arrays({Array::SurfaceSums});
+            if (plan.has(Feature::Balanced)) plan.overSpheres(Stage::Finish, Pass::Finish, "drive_contacts.comp");
+        },
+    .cost = {.name = "a driven body", .without = addMovingBox, .with = addDrivenBox},
 };
 
 // One module for each shape. Only its function in the kernels depends on it.
