@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """meshes.py SHAPE [--obj | --data]: writes a closed mesh to the standard output.
 
-SHAPE is mixer (a shaft with four blades), bottle, drum (64 sides, with four lifters) or landscape. Lengths are in metres.
+SHAPE is mixer (a shaft with four blades), screw (a shaft with a helix), bottle, drum (64 sides, with four lifters) or landscape. Lengths are in metres.
 The output is a binary STL, or an OBJ. With --data it is Base64 for the field `data` of a mesh in a scene."""
 import base64
 import math
@@ -45,6 +45,25 @@ def mixer():
     triangles = lathe([(0, 0), (0.03, 0), (0.03, 1), (0, 1)], 24)
     for k in range(4):
         triangles += box((0.031, -0.01, 0.02), (0.35, 0.01, 0.22), k * math.pi / 2)
+    return triangles
+
+
+def screw(turns=5, pitch=0.2, inner=0.031, outer=0.16, thickness=0.012, steps=24):
+    """A shaft, and a blade along a helix around it. They touch nowhere."""
+    def corners(k):
+        angle, z = 2 * math.pi * k / steps, 0.02 + pitch * k / steps
+        x, y = math.cos(angle), math.sin(angle)
+        return [(r * x, r * y, z + height) for r, height in
+                ((inner, 0), (outer, 0), (outer, thickness), (inner, thickness))]
+    triangles = lathe([(0, 0), (0.03, 0), (0.03, turns * pitch + 0.05), (0, turns * pitch + 0.05)], 24)
+    rings = [corners(k) for k in range(turns * steps + 1)]
+    for low, high in zip(rings, rings[1:]):
+        for k in range(4):
+            a, b, c, d = low[k], high[k], high[(k + 1) % 4], low[(k + 1) % 4]
+            triangles += [(a, b, c), (a, c, d)]
+    first, last = rings[0], rings[-1]
+    triangles += [(first[0], first[1], first[2]), (first[0], first[2], first[3])]
+    triangles += [(last[0], last[2], last[1]), (last[0], last[3], last[2])]
     return triangles
 
 
@@ -111,7 +130,7 @@ def obj(triangles):
     return "".join(lines + faces).encode()
 
 
-SHAPES = {"mixer": mixer, "bottle": bottle, "drum": drum, "landscape": landscape}
+SHAPES = {"mixer": mixer, "screw": screw, "bottle": bottle, "drum": drum, "landscape": landscape}
 
 
 def main(arguments):

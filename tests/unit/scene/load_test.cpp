@@ -30,10 +30,11 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
 }
 
 TEST(SceneLoad, NamesAreSortedAndIncludeTheExamples) {
-    const std::vector<std::string> expected{
-        "billiards", "bounce",          "box",       "box-10k",   "box-4k",     "box-50k",
-        "cradle",    "cradle-touching", "galton",    "hopper",    "pour",       "rapids",
-        "rapids-3k", "rapids-50k",      "rapids-6k", "stress-1m", "two-spheres"};
+    const std::vector<std::string> expected{"ball-mill",  "billiards", "bounce",   "box",        "box-10k",
+                                            "box-4k",     "box-50k",   "conveyor", "cradle",     "cradle-touching",
+                                            "drum",       "galton",    "hopper",   "marble-run", "mixer",
+                                            "piston",     "pour",      "press",    "rapids",     "rapids-3k",
+                                            "rapids-50k", "rapids-6k", "screw",    "stress-1m",  "two-spheres"};
     EXPECT_EQ(names(), expected);
 }
 
@@ -92,10 +93,10 @@ TEST(SceneLoad, CradlesHaveTheNamedProperties) {
 TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
     EXPECT_EQ(
         load("bux", "gpu").error().text(),
-        "\"bux\": is not the name of a scene; there are billiards, bounce, box, box-10k, box-4k, box-50k, cradle, "
-        "cradle-touching, galton, hopper, pour, rapids, rapids-3k, rapids-50k, rapids-6k, stress-1m, two-spheres. A "
-        "file "
-        "is named with its ending, .json");
+        "\"bux\": is not the name of a scene; there are ball-mill, billiards, bounce, box, box-10k, box-4k, "
+        "box-50k, conveyor, cradle, cradle-touching, drum, galton, hopper, marble-run, mixer, piston, pour, "
+        "press, rapids, rapids-3k, rapids-50k, rapids-6k, screw, stress-1m, two-spheres. A file is named with its "
+        "ending, .json");
 }
 
 TEST(SceneLoad, MissingFilesAreRefused) {
