@@ -76,7 +76,7 @@ Drive readDrive(Check& check, const v1::Drive& message, const glm::dvec3& pivot,
         drive.force = check.within(message.force(), -largest, largest, at(field, "force"), " N");
     }
     drive.damping = check.within(message.damping(), 0, largest, at(field, "damping"));
-    drive.mostRate = check.upTo(message.most_speed(), largestComponent, at(field, "most_speed"), perSecond);
+    drive.mostRate = check.upTo(message.most_speed(), largestComponent, at(field, "mostSpeed"), perSecond);
     const auto limit = [&](double value, const char* name) {
         return check.within(value, -largestComponent, largestComponent, at(field, name), unit);
     };

@@ -47,8 +47,8 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-
 
 TEST(SceneMotion, IsAbsentOrMovesSomething) {
     EXPECT_EQ(refusalOfMotion(""),
-              "obstacles[0].motion: moves nothing; give one of velocity, acceleration, spin, oscillations, keyframes "
-              "and belt");
+              "obstacles[0].motion: moves nothing; give one of velocity, acceleration, spin, oscillations, keyframes, "
+              "belt and drive");
     EXPECT_FALSE(build(parsed(R"({"bounds": {"min": [0,0,0], "max": [9,9,9]},
                                   "obstacles": [{"sphere": {"centre": [5,5,5], "radius": 1}}]})"))
                      ->obstacles[0]
@@ -214,6 +214,47 @@ TEST(SceneMotion, PlacesSpheresBesideObstacles) {
     scene.time = 3;
     EXPECT_FALSE(obstacleAt(scene, {5, 5, 5}, 0.1));
     EXPECT_TRUE(obstacleAt(scene, {8, 5, 5}, 0.1));
+}
+
+TEST(SceneMotion, OfADriveIsItsPlaceUntilAForceChangesIt) {
+    const Motion slide = motionFrom(R"("drive": {"along": [0, 3, 4], "mass": 2, "mostSpeed": 5, "most": 1,
+                                                 "place": 0.5, "rate": 0.25})");
+    expectNear(slide.poseAt(1).shift, {0, 0.45, 0.6});
+    expectNear(slide.poseAt(100).shift, {0, 0.6, 0.8});  // it does not pass its stop
+    EXPECT_EQ(slide.speeds().pivot, 5);
+    EXPECT_EQ(slide.drive->forceAt({0, 0, -10}, {}), -16);
+    const Motion turn = motionFrom(R"("pivot": [5, 5, 5], "drive": {"about": [0, 2, 0], "inertia": 3, "torque": 1,
+                                      "mass": 2, "centre": [5, 5, 4], "mostSpeed": 9, "place": 1.5707963267948966})");
+    expectNear(turn.poseAt(3).frame().outside({5, 5, 4}), {4, 5, 5});
+    EXPECT_EQ(turn.speeds().turn, 9);
+    EXPECT_NEAR(turn.drive->forceAt({0, 0, -10}, turn.pivot), 1 - 20, 1e-9);
+    EXPECT_FALSE(turn.staysInPlace());
+}
+
+TEST(SceneMotion, OfADriveIsRefusedWithTheReason) {
+    const std::string at = "obstacles[0].motion.drive";
+    const std::pair<const char*, std::string> cases[] = {
+        {R"("drive": {})", at + ": needs `along`, to slide, or `about`, to turn"},
+        {R"("drive": {"along": [1,0,0], "about": [1,0,0]})",
+         at + ": has both `along` and `about`; a body slides or turns"},
+        {R"("drive": {"along": [0,0,0], "mass": 1, "mostSpeed": 1})", at + ".along: has length zero"},
+        {R"("drive": {"along": [1,0,0], "mass": 1})",
+         at + ".mostSpeed: is 0 m/s, must be above 0 and at most 1e+09 m/s"},
+        {R"("drive": {"along": [1,0,0], "mostSpeed": 1})", at + ".mass: is 0 kg, must be above 0 and at most 1e+12 kg"},
+        {R"("drive": {"about": [1,0,0], "mostSpeed": 1})",
+         at + ".inertia: is 0 kg m^2, must be above 0 and at most 1e+12 kg m^2"},
+        {R"("drive": {"along": [1,0,0], "mass": 1, "torque": 1, "mostSpeed": 1})",
+         at + ".torque: is of a body that turns; this one slides (`along`)"},
+        {R"("drive": {"about": [1,0,0], "inertia": 1, "force": 1, "mostSpeed": 1})",
+         at + ".force: is of a body that slides; this one turns (`about`)"},
+        {R"("drive": {"along": [1,0,0], "mass": 1, "mostSpeed": 1, "least": 2, "most": 1})",
+         at + ".most: is 1 m, must be at least 2 m, the value of `least`"},
+        {R"("drive": {"along": [1,0,0], "mass": 1, "mostSpeed": 1, "rate": 2})",
+         at + ".rate: is 2 m/s, must be -1 to 1 m/s"},
+        {R"("velocity": [1,0,0], "drive": {"along": [1,0,0], "mass": 1, "mostSpeed": 1})",
+         at + ": is beside a prescribed motion; only `pivot` and `belt` go with it"},
+    };
+    for (const auto& [motion, refusal] : cases) EXPECT_EQ(refusalOfMotion(motion), refusal);
 }
 
 }  // namespace
