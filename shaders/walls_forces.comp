@@ -40,7 +40,7 @@ PRIVATE(vec3, impulseHere)  // of one wall, in scenes with contact sums (N s)
 PRIVATE(vec3, momentHere)   // the same about the centre of the sphere (N m s)
 PRIVATE(vec3, displacement)
 PRIVATE(float, sphereInverseMass)
-PRIVATE(float, inverseMassAlong)  // 1/kg: of the sphere and of the surface that is visited, along the surface
+PRIVATE(float, yieldAlong)  // 1/kg: reciprocal of the mass that a driven body has along the surface, 0 without one
 PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere still touches
 
 #include "shared/contact_params.h"
@@ -77,8 +77,9 @@ void applySpringFriction(vec3 n, uint key, vec3 fall, float arm, Spring spring, 
     vec3 path = slip;
     if (HAS(GRAVITY) || HAS(FIELDS)) path = slip - (fall - n * dot3(fall, n));
     float lever = arm / sphereRadius;
-    vec3 impulse = tangentialImpulse(path, slip, inverseMassAlong + sphereInverseMass * (2.5f * lever * lever), spring,
-                                     frictionOf(contact));
+    float inverseMass = sphereInverseMass * (1.0f + 2.5f * lever * lever);
+    if (HAS(DRIVES)) inverseMass = inverseMass + yieldAlong;
+    vec3 impulse = tangentialImpulse(path, slip, inverseMass, spring, frictionOf(contact));
     impulseSum = impulseSum + impulse;
     torque = torque - cross3(n, impulse) * arm;
     if (HAS(CONTACT_SUMS) || HAS(DRIVES)) {
@@ -128,12 +129,12 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
     }
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY) || HAS(FIELDS)) fall = accelerationAt(spherePoint) * (0.5f * params.substep);
-    float inverseMass = sphereInverseMass;  // of the sphere and the body that it touches, across the surface
-    inverseMassAlong = sphereInverseMass;   // the same along it
+    float inverseMass = sphereInverseMass;  // of the sphere and the body that it touches
+    if (HAS(DRIVES)) yieldAlong = 0.0f;
     if (HAS(DRIVES) && driveRow != 0u) {
-        float along = dot3(driveLever, normal);
-        inverseMass = inverseMass + driveYield * along * along;
-        inverseMassAlong = inverseMassAlong + driveYield * max(dot3(driveLever, driveLever) - along * along, 0.0f);
+        float across = dot3(driveLever, normal);
+        inverseMass = inverseMass + driveYield * across * across;
+        yieldAlong = driveYield * max(dot3(driveLever, driveLever) - across * across, 0.0f);
     }
     Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, sphereRadius, inverseMass,
                              contactParams[index].stiffness);
