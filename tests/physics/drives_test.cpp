@@ -211,7 +211,8 @@ TEST_P(Drives, AreDraggedAlongByFriction) {
         run(*simulation, 0.5);
         const glm::dvec3 v = velocityOf(*simulation, 0);
         EXPECT_NEAR(v.x, (2.5 + ratio) / (3.5 + ratio), 2e-3) << ratio;
-        EXPECT_NEAR(m * v.x + m / ratio * driveIn(*simulation).rate, m, 1e-5 * m) << ratio;
+        // In `accurate`, the velocity is rounded in each of 24,000 substeps.
+        EXPECT_NEAR(m * v.x + m / ratio * driveIn(*simulation).rate, m, (soft() ? 1e-3 : 1e-5) * m) << ratio;
     }
 }
 

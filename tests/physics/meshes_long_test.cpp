@@ -69,8 +69,8 @@ TEST_P(MeshesLong, HoldABedAsTheBoundsDo) {
     RecordProperty("difference", std::to_string(difference / error) + " standard errors");
 }
 
-// Returns the angle by which the centre of mass of a bed lies ahead of the lowest place of a drum that turns, as mean over
-// the time (degrees).
+// Returns the angle by which the centre of mass of a bed lies ahead of the lowest place of a drum that turns, as mean
+// over the time (degrees).
 double slopeIn(scene::Model model, scene::Obstacle drum, std::uint64_t seed) {
     scene::Scene scene = fineStepSpace(1);
     scene.quality = {.model = model, .substeps = model == scene::Model::Accurate ? 20U : 1U};
@@ -99,8 +99,8 @@ double slopeIn(scene::Model model, scene::Obstacle drum, std::uint64_t seed) {
 
 // The slope in a drum of 64 flat sides is the slope in a round one within a degree, over three seeds.
 TEST_P(MeshesLong, TurnABedAsARoundDrumDoes) {
-    const scene::Obstacle round = obstacleFrom(
-        R"({"cylinder": {"from": [0, 0, -0.05], "to": [0, 0, 0.05], "radius": 0.25, "hollow": true}})");
+    const scene::Obstacle round =
+        obstacleFrom(R"({"cylinder": {"from": [0, 0, -0.05], "to": [0, 0, 0.05], "radius": 0.25, "hollow": true}})");
     const scene::Obstacle sides =
         meshOf(support::lathe({{0, -0.05}, {0.25, -0.05}, {0.25, 0.05}, {0, 0.05}}, 64), Mesh::Form::Hollow);
     double slopes[2]{};
