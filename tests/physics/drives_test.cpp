@@ -248,7 +248,8 @@ double weightOf(const scene::Scene& scene) {
     return mass * earth;
 }
 
-// A piston on a bed: the floor bears both weights and the change of their momentum. Light and heavy pistons, over seeds. The bed is at rest, except below the heavy piston in `accurate`, which swings on the springs for long.
+// A piston on a bed: the floor bears both weights and the change of their momentum. Light and heavy pistons, over
+// seeds. The bed is at rest, except below the heavy piston in `accurate`, which swings on the springs for long.
 TEST_P(Drives, FloorBearsAPistonAndItsBed) {
     for (const double mass : {0.02, 0.5, 10.0})
         for (const std::uint64_t seed : {81U, 82U, 83U}) {
