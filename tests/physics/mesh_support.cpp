@@ -51,13 +51,13 @@ scene::Obstacle bottle() {
 
 }  // namespace
 
-void flyInBottle(scene::Model model, double seconds, unsigned count) {
+void flyInBottle(scene::Model model, double seconds, unsigned count, std::uint32_t substeps) {
     constexpr double size = 0.01;  // m
     scene::Scene scene = spaceFor(model, 4);
     setRestitution(scene, 1);
     measure::setFriction(scene, 0);
     scene.sphereContacts = false;
-    scene.quality.substeps = model == scene::Model::Accurate ? 1000 : 50;  // the fewest are 929, and 42
+    scene.quality.substeps = substeps;
     scene.obstacles.push_back(bottle());
     scene::Random random(31);
     while (scene.spheres.size() < count) {
