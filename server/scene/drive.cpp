@@ -24,7 +24,8 @@ double Drive::forceAt(const glm::dvec3& gravity, const glm::dvec3& pivot) const 
 
 namespace {
 
-constexpr double largest = 1e12;  // kg, N and so on
+constexpr double largest = 1e12;    // kg, N and so on
+constexpr double smallest = 1e-12;  // kg or kg m^2: kernels have its reciprocal as a float
 
 // Returns the axis of unit length. Refuses a drive that has not exactly one.
 glm::dvec3 readAxis(Check& check, const v1::Drive& message, const std::string& field) {
@@ -68,11 +69,11 @@ Drive readDrive(Check& check, const v1::Drive& message, const glm::dvec3& pivot,
     const char* const perSecond = drive.turns ? " rad/s" : " m/s";
     if (drive.turns) {
         if (message.mass() != 0) drive.mass = check.upTo(message.mass(), largest, at(field, "mass"), " kg");
-        drive.inertia = check.upTo(message.inertia(), largest, at(field, "inertia"), " kg m^2");
+        drive.inertia = check.within(message.inertia(), smallest, largest, at(field, "inertia"), " kg m^2");
         drive.force = check.within(message.torque(), -largest, largest, at(field, "torque"), " N m");
         drive.centre = check.vectorOr(message.centre(), pivot, at(field, "centre"));
     } else {
-        drive.mass = drive.inertia = check.upTo(message.mass(), largest, at(field, "mass"), " kg");
+        drive.mass = drive.inertia = check.within(message.mass(), smallest, largest, at(field, "mass"), " kg");
         drive.force = check.within(message.force(), -largest, largest, at(field, "force"), " N");
     }
     drive.damping = check.within(message.damping(), 0, largest, at(field, "damping"));

@@ -18,7 +18,7 @@ scene::Drive& driveOf(scene::Scene& scene, std::size_t obstacle) {
 
 // Returns the rate after a substep of `h` seconds, by `force` (N or N m) and an impulse (N s or N m s).
 double rateAfter(const scene::Drive& drive, double rate, double force, double impulse, double h) {
-    const double after = (rate + (h * force + impulse) / drive.inertia) / (1 + h * drive.damping / drive.inertia);
+    const double after = (drive.inertia * rate + h * force + impulse) / (drive.inertia + h * drive.damping);
     return std::clamp(after, -drive.mostRate, drive.mostRate);
 }
 
@@ -61,7 +61,7 @@ void Drives::predict(scene::Scene& scene, const TimeSpan& substep) {
         body.rate = drive.rate;
         if (balanced_) {
             const double force = drive.forceAt(scene.forces.gravity, scene.obstacles[body.obstacle].motion->pivot);
-            const double held = body.heldSince > 0 ? body.held * (h / body.heldSince) : 0;
+            const double held = body.heldFor > 0 ? body.held * (h / body.heldFor) : 0;
             drive.rate = rateAfter(drive, body.rate, force, held, h);
         }
         drive.rate = rateWithinStops(drive, drive.rate, h);
@@ -86,7 +86,7 @@ void Drives::advance(scene::Scene& scene, const TimeSpan& substep, Pipeline& pip
         if (balanced_) {
             drive.rate = rateWithinStops(drive, after, h);
             body.held = impulseOn(drive, loadIn(1), arm);
-            body.heldSince = h;
+            body.heldFor = h;
         }
         drive.place = std::clamp(drive.place + h * drive.rate, drive.least, drive.most);
         if (!balanced_) drive.rate = after;

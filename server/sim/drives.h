@@ -38,7 +38,7 @@ class Drives {
         std::size_t obstacle = 0;
         double rate = 0;       // m/s or rad/s, at the begin of the substep
         double held = 0;       // N s or N m s, of the last substep
-        double heldSince = 0;  // s, its length
+        double heldFor = 0;  // s, its length
     };
 
     bool balanced_;

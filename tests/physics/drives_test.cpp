@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -318,6 +319,27 @@ TEST_P(Drives, GoOnFromASavedScene) {
     EXPECT_LT(drive.place(), -0.05);
 }
 
+// The least mass and the strongest damping and force that scenes accept leave all numbers finite.
+TEST(Drive, OfExtremesStaysFinite) {
+    for (const char* const drive :
+         {R"("along": [0, 0, 1], "mass": 1e-12, "damping": 1e12, "mostSpeed": 1)",
+          R"("along": [0, 0, 1], "mass": 1e-12, "force": -1e12, "mostSpeed": 1)",
+          R"("along": [0, 0, 1], "mass": 1e12, "force": -1e12, "damping": 1e12, "mostSpeed": 1)",
+          R"("about": [1, 0, 0], "inertia": 1e-12, "torque": 1e12, "mostSpeed": 1)"}) {
+        for (const Model model : {Model::Balanced, Model::Accurate}) {
+            scene::Scene scene = shaft(model, 1, 87);
+            scene.obstacles[0] = obstacleFrom(
+                std::string(
+                    R"({"box": {"min": [-0.245, -0.245, 0.9], "max": [0.245, 0.245, 1]}, "motion": {"drive": {)") +
+                drive + "}}}");
+            const auto simulation = simulate(scene);
+            run(*simulation, 0.3);
+            EXPECT_TRUE(allFinite(simulation->snapshot())) << drive;
+            EXPECT_TRUE(std::isfinite(driveIn(*simulation).place)) << drive;
+        }
+    }
+}
+
 TEST(Drive, IsRefusedInFast) {
     scene::Scene scene = shaft(Model::Balanced, 1, 85);
     const auto simulation = simulate(scene);
@@ -327,7 +349,7 @@ TEST(Drive, IsRefusedInFast) {
               "obstacles[0].motion.drive: needs the model balanced or accurate: fast holds no body up by its contacts");
 }
 
-// A reset takes the body back, and another obstacle leaves it where it is.
+// Other gravity and another obstacle leave the body where it is. A reset takes it back.
 TEST(Drive, ContinuesBesideCommands) {
     scene::Scene scene = shaft(Model::Balanced, 1, 86);
     const auto simulation = simulate(scene);
@@ -338,6 +360,14 @@ TEST(Drive, ContinuesBesideCommands) {
     ASSERT_TRUE(simulation->apply(sim::Set{.gravity = glm::dvec3(0, 0, -5)}));
     EXPECT_EQ(driveIn(*simulation).place, place);
     EXPECT_EQ(driveIn(*simulation).rate, rate);
+    ASSERT_TRUE(simulation->apply(
+        sim::ChangeObstacle{.make = [](const scene::Scene&) -> Result<std::optional<scene::Obstacle>> {
+            return obstacleFrom(R"({"sphere": {"centre": [0, 0, 1.8], "radius": 0.05}})");
+        }}));
+    EXPECT_EQ(driveIn(*simulation).place, place);
+    EXPECT_EQ(driveIn(*simulation).rate, rate);
+    run(*simulation, 0.05);
+    EXPECT_LT(driveIn(*simulation).place, place);
     ASSERT_TRUE(simulation->apply(sim::Reset{}));
     EXPECT_EQ(driveIn(*simulation).place, 0);
     EXPECT_EQ(driveIn(*simulation).rate, 0);
