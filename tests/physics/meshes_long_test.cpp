@@ -21,11 +21,9 @@ using scene::Mesh;
 class MeshesLong : public testing::TestWithParam<scene::Model> {};
 
 // 1,000 spheres at 100 m/s, until they have hit the wall about a million times, in `accurate` a hundred thousand times.
-// There the energy rises with each hit, by an error that falls with the third power of the substep: 2 % here with 1,000
-// substeps.
 TEST_P(MeshesLong, KeepFastSpheresInABottle) {
     const bool accurate = GetParam() == scene::Model::Accurate;
-    flyInBottle(GetParam(), accurate ? 0.6 : 6, 1000, accurate ? 4000 : 50);
+    flyInBottle(GetParam(), accurate ? 0.6 : 6, 1000, accurate ? 1000 : 50);
 }
 
 double meanHeight(scene::Model model, bool mesh, unsigned seed) {
