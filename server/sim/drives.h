@@ -36,8 +36,8 @@ class Drives {
   private:
     struct Body {
         std::size_t obstacle = 0;
-        double rate = 0;       // m/s or rad/s, at the begin of the substep
-        double held = 0;       // N s or N m s, of the last substep
+        double rate = 0;     // m/s or rad/s, at the begin of the substep
+        double held = 0;     // N s or N m s, of the last substep
         double heldFor = 0;  // s, its length
     };
 
