@@ -32,13 +32,13 @@ class Server:
         """Stops the server and returns its exit code; its output is in `said`."""
         if self._process.returncode is None:
             (self._process.kill if kill else self._process.terminate)()
-            self.said = self._process.communicate(timeout=30)[0]
+            self.said = self._process.communicate(timeout=120)[0]
         return self._process.returncode
 
     def wait(self):
         """Waits until the server ends by itself and returns its exit code."""
         if self._process.returncode is None:
-            self.said = self._process.communicate(timeout=60)[0]
+            self.said = self._process.communicate(timeout=120)[0]
         return self._process.returncode
 
     @property
@@ -56,16 +56,16 @@ class Server:
     def get(self, path):
         headers = {"Authorization": f"Bearer {self._token}"} if self._token else {}
         request = urllib.request.Request(f"http://{self._address}{path}", headers=headers)
-        with urllib.request.urlopen(request, timeout=30) as answer:
+        with urllib.request.urlopen(request, timeout=120) as answer:
             return answer.read().decode()
 
     def fetch(self, path, tls):
         """Like get(), but with TLS. `tls`: an ssl.SSLContext."""
-        with urllib.request.urlopen(f"https://{self._address}{path}", timeout=30, context=tls) as answer:
+        with urllib.request.urlopen(f"https://{self._address}{path}", timeout=120, context=tls) as answer:
             return answer.read().decode()
 
     def status(self, path, **headers):
-        connection = http.client.HTTPConnection(self._address, timeout=30)
+        connection = http.client.HTTPConnection(self._address, timeout=120)
         connection.putrequest("GET", path, skip_host="Host" in headers)
         for name, value in headers.items():
             connection.putheader(name, value)

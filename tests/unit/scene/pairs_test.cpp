@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "scene/materials.h"
@@ -12,11 +13,11 @@ constexpr const char* materials = R"("materials": [
     {"name": "ice", "restitution": 0.5, "friction": 0, "rollingResistance": 0, "spinningResistance": 0}])";
 
 Scene withPairs(const std::string& pairs) {
-    return sceneWith(std::string(materials) + R"(, "pairs": [)" + pairs + "]");
+    return sceneWith(fmt::format(R"({}, "pairs": [{}])", materials, pairs));
 }
 
 std::string refusalOfPairs(const std::string& pairs) {
-    return refusalOf(std::string(materials) + R"(, "pairs": [)" + pairs + "]");
+    return refusalOf(fmt::format(R"({}, "pairs": [{}])", materials, pairs));
 }
 
 TEST(ScenePairs, MaterialWithItselfHasItsOwnParameters) {
