@@ -26,6 +26,7 @@ namespace {
 // half of it in a substep.
 constexpr double reachInRadii = 1.75;
 constexpr std::uint32_t keysPerGroup = 4;  // KEYS_PER_GROUP of shared/gathered_contacts.h
+constexpr double smoothCosine = 0.9659;    // SMOOTH_COSINE of the same
 
 using Words = std::vector<std::uint32_t>;
 
@@ -92,6 +93,16 @@ class MeshWriter {
         return glm::normalize(glm::cross(along, mesh_.normal(triangle)));
     }
 
+    // Springs at the two sides of a groove act as one if they are parts of a smooth surface and differ little.
+    [[nodiscard]] std::uint32_t grooveAt(const scene::Mesh::Edge& edge) const {
+        const auto [first, second] = edge.triangles;
+        if (!smooth_ || second == scene::Mesh::none || edge.flat) return 0;
+        if (keyOf(first) == keyOf(second) && glm::dot(mesh_.normal(first), mesh_.normal(second)) > smoothCosine)
+            return 0;
+        if (mesh_.risesBeyond(edge)) return EDGE_GROOVE;
+        return mesh_.closed() ? 0 : EDGE_GROOVE_BEHIND;
+    }
+
     // Edges and vertices lie in memory as the clusters use them, so that what a sphere reads is together.
     void putInOrder(const MeshClusters& clusters) {
         placeOf_.assign(mesh_.edges.size(), scene::Mesh::none);
@@ -126,7 +137,7 @@ class MeshWriter {
             put(words_, away);
             put(words_, !shared || edge.flat ? -away : awayFrom(edge.triangles[1], k));
             words_.push_back(edge.meets ? keyBeyond(edge.triangles[0]) : 0);
-            words_.push_back((edge.meets ? EDGE_MEETS : 0U) | (shared ? EDGE_SHARED : 0U));
+            words_.push_back((edge.meets ? EDGE_MEETS : 0U) | (shared ? EDGE_SHARED : 0U) | grooveAt(edge));
         }
     }
 

@@ -32,6 +32,9 @@
 #define EDGE_FLAGS 14u
 #define EDGE_MEETS 1u   // spheres may touch it
 #define EDGE_SHARED 2u  // two triangles have it
+// In the model `accurate`: the triangles form a groove on their front or back, and have springs of their own.
+#define EDGE_GROOVE 4u
+#define EDGE_GROOVE_BEHIND 8u
 
 #define VERTEX_PLACE 0u   // m
 #define VERTEX_NORMAL 3u  // mean normal of its triangles, of any length; 0 without a solid

@@ -11,6 +11,11 @@
 //   `void visitGathered(Obstacle mesh)`: visits them when all contacts with the mesh are known.
 // shared/gathered_contacts.h has them. In kernels of the other models they are empty.
 
+// In the model `accurate`, a spring must not end while it is compressed. The centre of a sphere that is pressed deep
+// into one side of a groove is above that side alone. The other side goes on in its plane, below the first one.
+#define GROOVE_LENGTH 0.75f  // radii from the edge, across it
+#define GROOVE_SPREAD 0.25f  // of that, beyond the ends of the edge
+
 PRIVATE(real3, meshPoint)      // the centre of the sphere in the frame of the mesh when the visit began (m)
 PRIVATE(real3, meshStart)      // the same at the start of the substep
 PRIVATE(real3, meshVelocity)   // of the sphere relative to the mesh (m/s); 0 without look ahead
@@ -46,7 +51,8 @@ RARE void visitFeature(mask where, Obstacle mesh, uint part) {
 // Finds which side of a triangle the spheres meet that are above or below it. `above`: the height of the centre (m).
 void findSides(mask within, uint triangle, real above) {
     uint key = obstacleLists[triangle + TRIANGLE_KEY];
-    mask where = within && !(lastPatch == key || patchBefore == key);
+    mask where = within;
+    if (!HAS(ACCURATE)) where = where && !(lastPatch == key || patchBefore == key);  // gather() compares all faces
     if (obstacleLists[triangle + TRIANGLE_CLOSED] != 0u) {
         mask inside = where && above < 0.0f;
         mask nearer = inside && above > nearestInside;
@@ -81,15 +87,31 @@ void findNear(mask where, uint triangle) {
     real disc = sqrt(max((meshReach - above) * (meshReach + above), real(0.0f)));
     closeLanes = closeLanes && along <= (disc + meshReal(triangle + TRIANGLE_CENTRE + 3u)) * 1.01f;
     if (!anyLane(closeLanes)) return;
+    mask inGroove = noLane();
+    mask inGrooveBehind = noLane();
     for (uint k = 0u; k < 3u; ++k) {
         uint word = obstacleLists[triangle + TRIANGLE_EDGES + k];
         uint edge = word / 2u;
         real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
         real beyond = dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u * (word % 2u))));
-        besideLanes = besideLanes || (closeLanes && beyond > 0.0f);
+        mask outside = closeLanes && beyond > 0.0f;
+        besideLanes = besideLanes || outside;
+        uint flags = obstacleLists[edge + EDGE_FLAGS];
+        if (!HAS(ACCURATE) || (flags & (EDGE_GROOVE | EDGE_GROOVE_BEHIND)) == 0u || !anyLane(outside)) continue;
+        // The plane goes on below the other triangle.
+        real alongEdge = dot3(d, real3(meshVector(edge + EDGE_ALONG)));
+        real room = beyond * GROOVE_SPREAD;
+        mask continued = outside && beyond < sphereRadius * GROOVE_LENGTH && alongEdge > -room &&
+                         alongEdge < room + meshReal(edge + EDGE_LENGTH);
+        if ((flags & EDGE_GROOVE) != 0u) inGroove = inGroove || continued;
+        if ((flags & EDGE_GROOVE_BEHIND) != 0u) inGrooveBehind = inGrooveBehind || continued;
     }
     mask within = closeLanes && !besideLanes;
     if (anyLane(within)) findSides(within, triangle, above);
+    if (HAS(ACCURATE)) {
+        faceFront = faceFront || (inGroove && above > 0.0f);
+        faceBack = faceBack || (inGrooveBehind && above < 0.0f);
+    }
 }
 
 // Returns the spheres that may touch an edge of a triangle, if it is the first triangle of the edge.
@@ -200,6 +222,7 @@ void visitMesh(mask where, Obstacle mesh) {
     meshStart = meshPoint;
     if (HAS(FAST)) meshStart = intoFrame(mesh, spherePoint - meshVelocity * real(params.substep));
     meshReach = sphereRadius * (1.0f + TOUCHES) + sqrt(dot3(meshVelocity, meshVelocity)) * params.substep;
+    if (HAS(ACCURATE)) meshReach = sphereRadius * sqrt(1.0f + GROOVE_LENGTH * GROOVE_LENGTH);
     lastPatch = uints(END_OF_LIST);
     patchBefore = uints(END_OF_LIST);
     wayOut = uints(END_OF_LIST);

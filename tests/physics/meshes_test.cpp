@@ -119,7 +119,7 @@ TEST_P(Meshes, OfManySidesReboundAsACylinder) {
 
 TEST_P(Meshes, LoseNoFastSphere) {
     const bool accurate = GetParam() == scene::Model::Accurate;
-    flyInBottle(GetParam(), accurate ? 0.1 : 0.5, 200, accurate ? 1000 : 50);
+    flyInBottle(GetParam(), accurate ? 0.1 : 0.5, 200, accurate ? 1000 : 50, 0.01);
 }
 
 // A sheet holds spheres on both of its sides. It lies between z = 0 and 5 cm, and their centres keep 3 cm from it.

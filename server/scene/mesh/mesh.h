@@ -75,6 +75,8 @@ class Mesh {
     [[nodiscard]] const glm::dvec3& corner(std::uint32_t triangle, unsigned k) const {
         return vertices[corners[triangle][k]];
     }
+    // Returns true if the second triangle of a shared edge does not fall below the plane of the first one.
+    [[nodiscard]] bool risesBeyond(const Edge& edge) const;
     [[nodiscard]] const glm::dvec3& normal(std::uint32_t triangle) const { return patches[patchOf[triangle]].normal; }
 
     Form form = Form::Sheet;

@@ -139,11 +139,7 @@ void findMeetingEdges(Mesh& mesh) {
         edge.flat = mesh.patchOf[first] == mesh.patchOf[second];
         if (edge.flat) continue;
         edge.meets = true;
-        if (!mesh.closed()) continue;
-        unsigned k = 0;
-        while (mesh.corners[second][k] == edge.vertices[0] || mesh.corners[second][k] == edge.vertices[1]) ++k;
-        const glm::dvec3 beyond = mesh.corner(second, k) - mesh.vertices[edge.vertices[0]];
-        edge.meets = glm::dot(mesh.normal(first), beyond) < 0;
+        if (mesh.closed()) edge.meets = !mesh.risesBeyond(edge);
     }
 }
 
@@ -179,6 +175,13 @@ void findVertexNormals(Mesh& mesh) {
 }
 
 }  // namespace
+
+bool Mesh::risesBeyond(const Edge& edge) const {
+    const auto [first, second] = edge.triangles;
+    unsigned k = 0;
+    while (corners[second][k] == edge.vertices[0] || corners[second][k] == edge.vertices[1]) ++k;
+    return !(glm::dot(normal(first), corner(second, k) - vertices[edge.vertices[0]]) < 0);
+}
 
 void findPatches(Mesh& mesh, double largestCoordinate) {
     Patches(mesh, largestCoordinate).find();
