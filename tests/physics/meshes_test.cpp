@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -120,6 +124,66 @@ TEST_P(Meshes, OfManySidesReboundAsACylinder) {
 TEST_P(Meshes, LoseNoFastSphere) {
     const bool accurate = GetParam() == scene::Model::Accurate;
     flyInBottle(GetParam(), accurate ? 0.1 : 0.5, 200, accurate ? 1000 : 50, 0.01);
+}
+
+// Returns the velocities of spheres after they have hit a groove between two planes, near its line. The angle between
+// the normals of its sides is `bend` (rad). `side`: 1 if they come from the front of the triangles, else -1.
+std::vector<glm::dvec3> afterGroove(bool mesh, double bend, double side, scene::Random random) {
+    constexpr double speed = 30;  // m/s
+    scene::Scene scene = spaceFor(scene::Model::Accurate, 8);
+    scene.sphereContacts = false;
+    scene.quality.substeps = 200;
+    setRestitution(scene, random.uniform(0, 1) < 0.5 ? 1 : 0.4);
+    measure::setFriction(scene, 0);
+    const glm::dvec3 x = glm::normalize(glm::dvec3(random.normal(), random.normal(), random.normal()));
+    const glm::dvec3 y = glm::normalize(glm::cross(x, glm::dvec3(random.normal(), random.normal(), random.normal())));
+    const glm::dvec3 z = glm::cross(x, y);
+    const auto away = [&](double angle) { return std::cos(angle) * x + std::sin(angle) * z; };  // from the line
+    const double slope = side * bend;
+    const std::array normals{side * z, side * away(slope + std::numbers::pi / 2)};
+    if (mesh) {
+        const scene::Triangles triangles{.vertices = {-x - y, -x + y, -y, y, away(slope) - y, away(slope) + y},
+                                         .corners = {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}}};
+        scene.obstacles.push_back(meshOf(triangles, Mesh::Form::Sheet));
+    } else {
+        for (const glm::dvec3& normal : normals)
+            scene.obstacles.push_back({.shape = scene::planeShape({}, normal), .colour = ""});
+    }
+    const glm::dvec3 middle = glm::normalize(normals[0] + normals[1]);
+    while (scene.spheres.size() < 50) {
+        const glm::dvec3 way =
+            glm::normalize(away(random.uniform(0, 2 * std::numbers::pi)) + random.uniform(-0.5, 0.5) * y);
+        // The first contact is near the line of the groove.
+        const glm::dvec3 aim = radius * (middle / std::cos(bend / 2) + random.uniform(-1, 1) * glm::cross(middle, y));
+        const glm::dvec3 from = aim - 0.15 * way + random.uniform(-0.4, 0.4) * y;
+        if (std::ranges::any_of(normals, [&](const glm::dvec3& n) { return glm::dot(from, n) < 1.1 * radius; }))
+            continue;
+        measure::addSphere(scene, from, radius, speed * way);
+    }
+    const auto simulation = simulate(scene);
+    run(*simulation, 0.02);
+    const sim::State after = simulation->snapshot();
+    std::vector<glm::dvec3> velocities;
+    for (std::size_t k = 0; k < scene.spheres.size(); ++k) velocities.push_back(velocityOf(after, k) / speed);
+    return velocities;
+}
+
+// A side ends at the line of the groove, but its spring does not, while it is compressed.
+TEST(MeshesInAccurate, ActAsTwoPlanesInAGroove) {
+    double largest = 0;
+    for (std::uint32_t seed = 1; seed <= 24; ++seed) {
+        scene::Random random(seed);
+        const double bend = random.uniform(0.3, 1.5);
+        const double side = seed % 2 == 0 ? 1 : -1;
+        const auto planes = afterGroove(false, bend, side, random);
+        const auto mesh = afterGroove(true, bend, side, random);
+        for (std::size_t k = 0; k < planes.size(); ++k) {
+            const double error = glm::distance(planes[k], mesh[k]);
+            largest = std::max(largest, error);
+            EXPECT_LT(error, 1e-3) << "seed " << seed << ", bend " << bend << ", sphere " << k;
+        }
+    }
+    RecordProperty("largest", std::to_string(largest));
 }
 
 // A sheet holds spheres on both of its sides. It lies between z = 0 and 5 cm, and their centres keep 3 cm from it.
