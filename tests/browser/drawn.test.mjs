@@ -33,7 +33,11 @@ const points = { least: 0.002, ratio: 2, count: 300, share: 0.002 };
 /** Runs `body` with a small page of a server. */
 async function withPage(scene, body) {
   const server = await serve(scene);
-  const page = await open(suite.browser, `${server.url}?tier=fine`, { size: [240, 136], reducedMotion: "reduce" });
+  const page = await open(suite.browser, `${server.url}?tier=fine`, {
+    size: [240, 136],
+    deviceScaleFactor: 1,
+    reducedMotion: "reduce",
+  });
   await page.evaluate(() => (document.querySelector(".page").style.display = "none")); // the picture has all the room
   await body(page);
   assert.deepEqual(page.faults, []);
