@@ -17,6 +17,9 @@ struct MeshClusters {
         std::uint32_t count = 0;
         glm::dvec3 low{};  // m: its box, in the coordinates of the mesh
         glm::dvec3 high{};
+
+        [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (low + high); }
+        [[nodiscard]] glm::dvec3 half() const { return 0.5 * (high - low); }
     };
     std::vector<std::uint32_t> order{};  // the triangles of the mesh
     std::vector<Cluster> clusters{};

@@ -23,13 +23,13 @@ glm::uvec3 cellsFor(const glm::dvec3& size, double width) {
     return glm::uvec3(glm::max(glm::ceil(size / width), glm::dvec3(1)));
 }
 
-// The cells that clusters come near to.
+// The cells that clusters come near to. A cluster counts as its box, a single triangle as itself.
 class NearCells {
   public:
     NearCells(const scene::Mesh& mesh, const MeshClusters& clusters, const MeshGrid& grid)
         : mesh_(mesh), clusters_(clusters), grid_(grid) {}
 
-    // Calls `visit` with each cell of a cluster. A cluster counts as its box, a single triangle as itself.
+    // Calls `visit` with each list of cells that has a cluster.
     template <class Visit>
     void visit(const MeshClusters::Cluster& cluster, const Visit& visit) const {
         visitRange(cluster, cellAt(cluster.low - grid_.reach), cellAt(cluster.high + grid_.reach), visit);
@@ -42,11 +42,11 @@ class NearCells {
                     const Visit& visit) const {
         const glm::dvec3 half = 0.5 * grid_.width * (glm::dvec3(to - from) + 1.0);
         const glm::dvec3 centre = grid_.low + grid_.width * glm::dvec3(from) + half;
-        const bool near = cluster.count > 1 ? isNearBox(cluster, centre, half)
-                                            : isNearTriangle(clusters_.order[cluster.first], centre, half);
-        if (!near) return;
-        if (from == to)
-            return visit(from.x + std::size_t{grid_.cells.x} * (from.y + std::size_t{grid_.cells.y} * from.z));
+        if (!isNear(cluster, grid_.reach, centre, half)) return;
+        if (from == to) {
+            const auto cell = from.x + std::size_t{grid_.cells.x} * (from.y + std::size_t{grid_.cells.y} * from.z);
+            return visit(2 * cell + (isNear(cluster, grid_.nearReach, centre, half) ? 0 : 1));
+        }
         const int axis = half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
         glm::uvec3 middle = to;
         middle[axis] = from[axis] + (to[axis] - from[axis]) / 2;
@@ -56,18 +56,19 @@ class NearCells {
         visitRange(cluster, next, to, visit);
     }
 
-    [[nodiscard]] bool isNearBox(const MeshClusters::Cluster& cluster, const glm::dvec3& centre,
-                                 const glm::dvec3& half) const {
-        const glm::dvec3 gap = glm::max(glm::max(cluster.low - centre, centre - cluster.high) - half, glm::dvec3(0));
-        return glm::length(gap) <= 1.001 * grid_.reach;
-    }
-
-    [[nodiscard]] bool isNearTriangle(std::uint32_t t, const glm::dvec3& centre, const glm::dvec3& half) const {
+    // Returns true if a point of the box may be within `reach` of the cluster (m).
+    [[nodiscard]] bool isNear(const MeshClusters::Cluster& cluster, double reach, const glm::dvec3& centre,
+                              const glm::dvec3& half) const {
+        if (cluster.count > 1) {
+            const glm::dvec3 gap = glm::max(glm::abs(centre - cluster.centre()) - cluster.half() - half, glm::dvec3(0));
+            return glm::length(gap) <= 1.001 * reach;
+        }
+        const std::uint32_t t = clusters_.order[cluster.first];
         const glm::dvec3 normal = glm::abs(mesh_.normal(t));
-        const double slab = 1.001 * (grid_.reach + glm::dot(normal, half)) + flatness();
+        const double slab = 1.001 * (reach + glm::dot(normal, half)) + flatness();
         if (std::abs(glm::dot(mesh_.normal(t), centre - mesh_.corner(t, 0))) > slab) return false;
         const glm::dvec3 nearest = scene::nearestOn(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), centre);
-        return glm::distance(centre, nearest) <= 1.001 * (grid_.reach + glm::length(half));
+        return glm::distance(centre, nearest) <= 1.001 * (reach + glm::length(half));
     }
 
     // The corners of a triangle lie near the plane of its patch.
@@ -87,23 +88,23 @@ class NearCells {
 bool fill(const scene::Mesh& mesh, const MeshClusters& clusters, MeshGrid& grid, std::size_t most) {
     const NearCells near(mesh, clusters, grid);
     const auto count = static_cast<std::uint32_t>(clusters.clusters.size());
-    std::vector<std::uint32_t> cellOf;
+    std::vector<std::uint32_t> listOf;
     std::vector<std::uint32_t> end(count);
-    const std::size_t cells = std::size_t{grid.cells.x} * grid.cells.y * grid.cells.z;
-    grid.first.assign(cells + 1, 0);
+    const std::size_t lists = std::size_t{2} * grid.cells.x * grid.cells.y * grid.cells.z;
+    grid.first.assign(lists + 1, 0);
     for (std::uint32_t k = 0; k < count; ++k) {
-        near.visit(clusters.clusters[k], [&](std::size_t cell) {
-            cellOf.push_back(static_cast<std::uint32_t>(cell));
-            ++grid.first[cell + 1];
+        near.visit(clusters.clusters[k], [&](std::size_t list) {
+            listOf.push_back(static_cast<std::uint32_t>(list));
+            ++grid.first[list + 1];
         });
-        if (cellOf.size() > most) return false;
-        end[k] = static_cast<std::uint32_t>(cellOf.size());
+        if (listOf.size() > most) return false;
+        end[k] = static_cast<std::uint32_t>(listOf.size());
     }
-    for (std::size_t cell = 0; cell < cells; ++cell) grid.first[cell + 1] += grid.first[cell];
+    for (std::size_t list = 0; list < lists; ++list) grid.first[list + 1] += grid.first[list];
     std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-    grid.clusters.resize(cellOf.size());
+    grid.clusters.resize(listOf.size());
     for (std::uint32_t k = 0, entry = 0; k < count; ++k)
-        for (; entry < end[k]; ++entry) grid.clusters[next[cellOf[entry]]++] = k;
+        for (; entry < end[k]; ++entry) grid.clusters[next[listOf[entry]]++] = k;
     return true;
 }
 
@@ -111,9 +112,9 @@ bool fill(const scene::Mesh& mesh, const MeshClusters& clusters, MeshGrid& grid,
 void findSteps(MeshGrid& grid) {
     constexpr std::uint16_t most = std::numeric_limits<std::uint16_t>::max() - 1;
     const glm::ivec3 size(grid.cells);
-    grid.steps.resize(grid.first.size() - 1);
+    grid.steps.resize((grid.first.size() - 1) / 2);
     for (std::size_t cell = 0; cell < grid.steps.size(); ++cell)
-        grid.steps[cell] = grid.first[cell] == grid.first[cell + 1] ? most : 0;
+        grid.steps[cell] = grid.first[2 * cell] == grid.first[2 * cell + 2] ? most : 0;
     const auto at = [&](int x, int y, int z) -> std::uint16_t& {
         return grid
             .steps[static_cast<std::size_t>(x) +
@@ -143,9 +144,10 @@ void findSteps(MeshGrid& grid) {
 
 }  // namespace
 
-MeshGrid MeshGrid::around(const scene::Mesh& mesh, const MeshClusters& clusters, double reach) {
+MeshGrid MeshGrid::around(const scene::Mesh& mesh, const MeshClusters& clusters, double reach, double nearReach) {
     MeshGrid grid;
     grid.reach = reach;
+    grid.nearReach = nearReach;
     grid.low = -mesh.half - reach;
     const glm::dvec3 size = 2.0 * (mesh.half + reach);
     const std::size_t triangles = mesh.corners.size();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -25,8 +27,6 @@ namespace {
 // A sphere looks for triangles where its centre is. It may touch one at a distance of its radius, and moves by up to
 // half of it in a substep.
 constexpr double reachInRadii = 1.75;
-constexpr std::uint32_t keysPerGroup = 4;  // KEYS_PER_GROUP of shared/gathered_contacts.h
-constexpr double smoothCosine = 0.9659;    // SMOOTH_COSINE of the same
 
 using Words = std::vector<std::uint32_t>;
 
@@ -51,9 +51,9 @@ class MeshWriter {
         putInOrder(clusters);
         writeEdges();
         writeVertices();
-        const std::uint32_t trianglesAt = here();
+        const std::uint32_t trianglesAt = nextLine();
         for (const std::uint32_t triangle : clusters.order) writeTriangle(triangle);
-        row.clustersAt = here();
+        row.clustersAt = nextLine();
         writeClusters(clusters, trianglesAt);
         row.cellsAt = here();
         writeCells(grid);
@@ -61,6 +61,12 @@ class MeshWriter {
 
   private:
     [[nodiscard]] std::uint32_t here() const { return base_ + static_cast<std::uint32_t>(words_.size()); }
+
+    // Returns the address of the next word, the first of a line.
+    std::uint32_t nextLine() {
+        while (here() % LINE_WORDS != 0) words_.push_back(0);
+        return here();
+    }
 
     // Springs act on a smooth part of the mesh as a whole.
     void numberFaces() {
@@ -71,7 +77,7 @@ class MeshWriter {
             else if (mesh_.smoothOf[patch] != patch)
                 faceKey_[patch] = faceKey_[mesh_.smoothOf[patch]];  // a lower number
             else
-                faceKey_[patch] = std::exchange(nextKey_, nextKey_ + keysPerGroup);
+                faceKey_[patch] = std::exchange(nextKey_, nextKey_ + KEYS_PER_GROUP);
         }
     }
 
@@ -97,8 +103,8 @@ class MeshWriter {
     [[nodiscard]] std::uint32_t grooveAt(const scene::Mesh::Edge& edge) const {
         const auto [first, second] = edge.triangles;
         if (!smooth_ || second == scene::Mesh::none || edge.flat) return 0;
-        if (keyOf(first) == keyOf(second) && glm::dot(mesh_.normal(first), mesh_.normal(second)) > smoothCosine)
-            return 0;
+        const bool sameWay = glm::dot(mesh_.normal(first), mesh_.normal(second)) > double{SMOOTH_COSINE};
+        if (keyOf(first) == keyOf(second) && sameWay) return 0;
         if (mesh_.risesBeyond(edge)) return EDGE_GROOVE;
         return mesh_.closed() ? 0 : EDGE_GROOVE_BEHIND;
     }
@@ -124,7 +130,7 @@ class MeshWriter {
     [[nodiscard]] std::uint32_t addressOf(std::uint32_t edge) const { return edgesAt_ + placeOf_[edge] * EDGE_WORDS; }
 
     void writeEdges() {
-        edgesAt_ = here();
+        edgesAt_ = nextLine();
         for (const std::uint32_t k : edges_) {
             const scene::Mesh::Edge& edge = mesh_.edges[k];
             const glm::dvec3& from = mesh_.vertices[edge.vertices[0]];
@@ -138,6 +144,7 @@ class MeshWriter {
             put(words_, !shared || edge.flat ? -away : awayFrom(edge.triangles[1], k));
             words_.push_back(edge.meets ? keyBeyond(edge.triangles[0]) : 0);
             words_.push_back((edge.meets ? EDGE_MEETS : 0U) | (shared ? EDGE_SHARED : 0U) | grooveAt(edge));
+            nextLine();
         }
     }
 
@@ -173,7 +180,10 @@ class MeshWriter {
         put(words_, patch.normal);
         put(words_, patch.offset);
         words_.push_back(keyOf(t));
-        words_.push_back(mesh_.closed() ? 1 : 0);
+        std::uint32_t flags = mesh_.closed() ? TRIANGLE_CLOSED : 0;
+        for (unsigned k = 0; k < 3; ++k)
+            if (mesh_.edges[mesh_.edgesOf[t][k] / 2].vertices[0] != mesh_.corners[t][k]) flags |= TRIANGLE_TURNED << k;
+        words_.push_back(flags);
         for (const std::uint32_t word : mesh_.edgesOf[t]) words_.push_back(2 * addressOf(word / 2) + word % 2);
         for (const std::uint32_t corner : mesh_.corners[t])
             words_.push_back(owner_[corner] == t ? vertexAt_[corner] : 0);
@@ -186,15 +196,33 @@ class MeshWriter {
         put(words_, radius * 1.00001 + rounding());
     }
 
-    // Returns by how much balls and boxes are larger than their content (m): coordinates are float32.
+    // Returns by how much balls and cylinders are larger than their content (m): coordinates are float32.
     [[nodiscard]] double rounding() const { return 1e-6 * glm::length(mesh_.half); }
 
     void writeClusters(const MeshClusters& clusters, std::uint32_t trianglesAt) {
         for (const MeshClusters::Cluster& one : clusters.clusters) {
-            put(words_, one.low - rounding());
-            put(words_, one.high + rounding());
+            const auto triangles = std::span(clusters.order).subspan(one.first, one.count);
+            glm::dvec3 normal(0);
+            for (const std::uint32_t t : triangles) normal += mesh_.normal(t);
+            normal = glm::length(normal) > 0.1 ? glm::normalize(normal) : mesh_.normal(triangles[0]);
+            double low = std::numeric_limits<double>::max();
+            double high = -low;
+            double radius = 0;
+            for (const std::uint32_t t : triangles)
+                for (unsigned k = 0; k < 3; ++k) {
+                    const glm::dvec3& corner = mesh_.corner(t, k);
+                    low = std::min(low, glm::dot(normal, corner));
+                    high = std::max(high, glm::dot(normal, corner));
+                    radius = std::max(radius, glm::length(glm::cross(normal, corner - one.centre())));
+                }
+            put(words_, normal);
+            put(words_, low - rounding());
+            put(words_, high + rounding());
+            put(words_, one.centre());
+            put(words_, radius * 1.00001 + rounding());
             words_.push_back(trianglesAt + one.first * TRIANGLE_WORDS);
             words_.push_back(trianglesAt + (one.first + one.count) * TRIANGLE_WORDS);
+            nextLine();
         }
     }
 
@@ -207,9 +235,11 @@ class MeshWriter {
                 continue;
             }
             words_[cells + cell] = here();
-            words_.insert(words_.end(), grid.clusters.begin() + grid.first[cell],
-                          grid.clusters.begin() + grid.first[cell + 1]);
-            words_.push_back(END_OF_LIST);
+            for (std::size_t list = 2 * cell; list < 2 * cell + 2; ++list) {
+                words_.insert(words_.end(), grid.clusters.begin() + grid.first[list],
+                              grid.clusters.begin() + grid.first[list + 1]);
+                words_.push_back(END_OF_LIST);
+            }
         }
     }
 
@@ -240,7 +270,7 @@ std::shared_ptr<const MeshTables> made(const scene::Scene& scene, double largest
             // A scene may have no spheres yet.
             const double reach = std::max(reachInRadii * largestRadius, 1e-4 * glm::length(mesh->half));
             const MeshClusters clusters = MeshClusters::of(*mesh, reach);
-            const MeshGrid grid = MeshGrid::around(*mesh, clusters, reach);
+            const MeshGrid grid = MeshGrid::around(*mesh, clusters, reach, double{NEAR_SHARE} * reach);
             row.a = glm::vec4(glm::dvec4(grid.low, 1 / grid.width));
             row.b = glm::vec4(glm::dvec4(grid.cells, grid.reach));
             MeshWriter(*mesh, smooth, tables->words, base, nextKey).write(clusters, grid, row);

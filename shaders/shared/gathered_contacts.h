@@ -3,8 +3,6 @@
 // deepest. Its force is the gradient of an energy. A mean of the normals would give spheres energy at each edge.
 // The includer has defined visitSurface(), and has included shared/moving.h.
 #define MOST_GATHERED 8u
-#define SMOOTH_COSINE 0.9659f  // of 15 degrees: between two faces that are joined by an edge of less than 10
-#define KEYS_PER_GROUP 4u      // of contacts with one smooth part of a mesh, in different directions
 
 PRIVATE(uint, gathered)
 PRIVATE(vec3, gatheredFirst[MOST_GATHERED])    // normal of the first contact

@@ -4,26 +4,36 @@
 // The row of the obstacle has the grid. a.xyz is its lowest corner, and a.w the reciprocal of the width of its cells
 // (1/m). b.xyz is the number of its cells along each axis, and b.w its reach (m). A cell knows all clusters of triangles
 // within the reach of its points.
-// `cellsAt` is the address of its cells, along x first. A cell is the address of its list: numbers of clusters in
-// ascending order, then END_OF_LIST. A cell without clusters has EMPTY_CELL, and bits of a distance (m): no point of
-// the cell is nearer to the mesh.
+// `cellsAt` is the address of its cells, along x first. A cell is the address of two lists, one behind the other. The
+// first has the clusters within NEAR_SHARE of the reach, for spheres that move little, the second has the others. A list
+// is numbers of clusters in ascending order, then END_OF_LIST. A cell without clusters has EMPTY_CELL, and bits of a
+// distance (m): no point of the cell is nearer to the mesh.
 #define EMPTY_CELL 0x80000000u
+#define NEAR_SHARE 0.72f
 
-// `clustersAt` is the address of the clusters (sim/mesh_clusters.h).
-#define CLUSTER_WORDS 8u
-#define CLUSTER_LOW 0u        // corners of the box around its triangles (m)
-#define CLUSTER_HIGH 3u
-#define CLUSTER_TRIANGLES 6u  // address of the first triangle, and behind the last one
+// Clusters, triangles and edges fill whole lines of a cache.
+#define LINE_WORDS 16u
 
-#define TRIANGLE_WORDS 16u
+// `clustersAt` is the address of the clusters (sim/mesh_clusters.h). A cluster is in a short cylinder.
+#define CLUSTER_WORDS LINE_WORDS
+#define CLUSTER_NORMAL 0u     // of unit length: the direction of its axis
+#define CLUSTER_LOW 3u        // m: its two ends, along the normal
+#define CLUSTER_HIGH 4u
+#define CLUSTER_CENTRE 5u     // m: a point on its axis
+#define CLUSTER_RADIUS 8u     // m
+#define CLUSTER_TRIANGLES 9u  // address of the first triangle, and behind the last one
+
+#define TRIANGLE_WORDS LINE_WORDS
 #define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
 #define TRIANGLE_KEY 4u       // of a contact with the patch
-#define TRIANGLE_CLOSED 5u    // 1: the triangle belongs to a solid
+#define TRIANGLE_FLAGS 5u
+#define TRIANGLE_CLOSED 1u    // the triangle belongs to a solid
+#define TRIANGLE_TURNED 2u    // this times 1 << k: its edge k is stored from its corner k + 1 to its corner k
 #define TRIANGLE_EDGES 6u     // three: twice the address of an edge, plus 1 if the triangle is its second
 #define TRIANGLE_VERTICES 9u  // three: the address of a vertex that it owns and that spheres may touch, else 0
 #define TRIANGLE_CENTRE 12u   // of a ball around it (m), then the radius of the ball (m)
 
-#define EDGE_WORDS 15u
+#define EDGE_WORDS LINE_WORDS
 #define EDGE_FROM 0u    // m: its first end
 #define EDGE_ALONG 3u   // its direction, of unit length
 #define EDGE_LENGTH 6u  // m
@@ -41,3 +51,7 @@
 #define VERTEX_KEY 6u     // of a contact with the vertex
 #define VERTEX_COUNT 7u   // of its edges; they follow: twice the address, plus 1 if the edge ends here
 #define VERTEX_EDGES 8u
+
+// In the model `accurate`, spheres have few contacts with one smooth part of a mesh (scene::Mesh::smoothOf).
+#define SMOOTH_COSINE 0.9659f  // of 15 degrees: between two faces that are joined by an edge of less than 10
+#define KEYS_PER_GROUP 4u      // of contacts with one smooth part of a mesh, in different directions

@@ -53,7 +53,7 @@ void findSides(mask within, uint triangle, real above) {
     uint key = obstacleLists[triangle + TRIANGLE_KEY];
     mask where = within;
     if (!HAS(ACCURATE)) where = where && !(lastPatch == key || patchBefore == key);  // gather() compares all faces
-    if (obstacleLists[triangle + TRIANGLE_CLOSED] != 0u) {
+    if ((obstacleLists[triangle + TRIANGLE_FLAGS] & TRIANGLE_CLOSED) != 0u) {
         mask inside = where && above < 0.0f;
         mask nearer = inside && above > nearestInside;
         nearestInside = select(nearer, above, nearestInside);
@@ -74,6 +74,11 @@ void findSides(mask within, uint triangle, real above) {
     lastPatch = select(where, uints(key), lastPatch);
 }
 
+// Returns the radius of the disc in which spheres reach a plane (m). `above`: the height of the centre (m).
+real discInPlane(real above) {
+    return sqrt(max((meshReach - above) * (meshReach + above), real(0.0f)));
+}
+
 // Finds the spheres that are near a triangle, and those that are above or below it.
 void findNear(mask where, uint triangle) {
     real height = dot3(meshPoint, real3(meshVector(triangle + TRIANGLE_NORMAL)));
@@ -81,11 +86,10 @@ void findNear(mask where, uint triangle) {
     closeLanes = where && abs(above) <= meshReach;
     besideLanes = noLane();
     if (!anyLane(closeLanes)) return;
-    // The sphere reaches a disc of the plane.
+    real disc = discInPlane(above);
+    real room = (disc + meshReal(triangle + TRIANGLE_CENTRE + 3u)) * 1.01f;
     real3 fromCentre = meshPoint - real3(meshVector(triangle + TRIANGLE_CENTRE));
-    real along = sqrt(max(dot3(fromCentre, fromCentre) - above * above, real(0.0f)));
-    real disc = sqrt(max((meshReach - above) * (meshReach + above), real(0.0f)));
-    closeLanes = closeLanes && along <= (disc + meshReal(triangle + TRIANGLE_CENTRE + 3u)) * 1.01f;
+    closeLanes = closeLanes && dot3(fromCentre, fromCentre) <= above * above + room * room;
     if (!anyLane(closeLanes)) return;
     mask inGroove = noLane();
     mask inGrooveBehind = noLane();
@@ -94,18 +98,21 @@ void findNear(mask where, uint triangle) {
         uint edge = word / 2u;
         real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
         real beyond = dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u * (word % 2u))));
+        // In `accurate`, the sphere reaches as far as a groove is long.
+        if (!HAS(ACCURATE)) closeLanes = closeLanes && beyond <= disc * 1.01f;
         mask outside = closeLanes && beyond > 0.0f;
         besideLanes = besideLanes || outside;
         uint flags = obstacleLists[edge + EDGE_FLAGS];
         if (!HAS(ACCURATE) || (flags & (EDGE_GROOVE | EDGE_GROOVE_BEHIND)) == 0u || !anyLane(outside)) continue;
         // The plane goes on below the other triangle.
         real alongEdge = dot3(d, real3(meshVector(edge + EDGE_ALONG)));
-        real room = beyond * GROOVE_SPREAD;
-        mask continued = outside && beyond < sphereRadius * GROOVE_LENGTH && alongEdge > -room &&
-                         alongEdge < room + meshReal(edge + EDGE_LENGTH);
+        real spread = beyond * GROOVE_SPREAD;
+        mask continued = outside && beyond < sphereRadius * GROOVE_LENGTH && alongEdge > -spread &&
+                         alongEdge < spread + meshReal(edge + EDGE_LENGTH);
         if ((flags & EDGE_GROOVE) != 0u) inGroove = inGroove || continued;
         if ((flags & EDGE_GROOVE_BEHIND) != 0u) inGrooveBehind = inGrooveBehind || continued;
     }
+    besideLanes = besideLanes && closeLanes;
     mask within = closeLanes && !besideLanes;
     if (anyLane(within)) findSides(within, triangle, above);
     if (HAS(ACCURATE)) {
@@ -135,24 +142,33 @@ mask atEdge(uint triangle, uint k) {
     return where && distance <= meshReach;
 }
 
+// Returns the spheres beyond the first end of an edge, or beyond its `second`.
+mask beyondEnd(uint edge, bool second) {
+    real along = dot3(meshPoint - real3(meshVector(edge + EDGE_FROM)), real3(meshVector(edge + EDGE_ALONG)));
+    if (second) return along >= meshReal(edge + EDGE_LENGTH);
+    return along <= 0.0f;
+}
+
 // Returns the spheres that may touch a vertex of a triangle, if the vertex belongs to the triangle.
 mask atVertex(uint triangle, uint k) {
     uint vertex = obstacleLists[triangle + TRIANGLE_VERTICES + k];
-    if (vertex == 0u || !anyLane(besideLanes)) return noLane();
+    if (vertex == 0u) return noLane();
+    // First, by the edges of the triangle, because they have just been read.
+    uint before = k == 0u ? 2u : k - 1u;
+    uint flags = obstacleLists[triangle + TRIANGLE_FLAGS];
+    mask where = besideLanes &&
+                 beyondEnd(obstacleLists[triangle + TRIANGLE_EDGES + k] / 2u, (flags & (TRIANGLE_TURNED << k)) != 0u) &&
+                 beyondEnd(obstacleLists[triangle + TRIANGLE_EDGES + before] / 2u,
+                           (flags & (TRIANGLE_TURNED << before)) == 0u);
+    if (!anyLane(where)) return noLane();
     real3 d = meshPoint - real3(meshVector(vertex + VERTEX_PLACE));
     real distance = sqrt(dot3(d, d));
     vec3 normal = meshVector(vertex + VERTEX_NORMAL);
-    mask where = besideLanes && distance <= meshReach;
+    where = where && distance <= meshReach;
     if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) where = where && dot3(d, real3(normal)) > 0.0f;
     uint end = vertex + VERTEX_EDGES + obstacleLists[vertex + VERTEX_COUNT];
-    for (uint at = vertex + VERTEX_EDGES; at < end && anyLane(where); ++at) {
-        uint edge = obstacleLists[at] / 2u;
-        real along = dot3(meshPoint - real3(meshVector(edge + EDGE_FROM)), real3(meshVector(edge + EDGE_ALONG)));
-        if (obstacleLists[at] % 2u == 0u)
-            where = where && along <= 0.0f;
-        else
-            where = where && along >= meshReal(edge + EDGE_LENGTH);
-    }
+    for (uint at = vertex + VERTEX_EDGES; at < end && anyLane(where); ++at)
+        where = where && beyondEnd(obstacleLists[at] / 2u, obstacleLists[at] % 2u != 0u);
     nearestOutside = select(where, min(nearestOutside, distance), nearestOutside);
     featurePlace = vec4(meshVector(vertex + VERTEX_PLACE), 0.0f);
     featureKey = obstacleLists[vertex + VERTEX_KEY];
@@ -195,16 +211,16 @@ void visitTriangle(mask where, Obstacle mesh, uint triangle, bool leaves) {
 
 // Returns the spheres that may touch a triangle of a cluster.
 mask nearCluster(mask where, uint cluster) {
-    vec3 low = meshVector(cluster + CLUSTER_LOW);
-    vec3 high = meshVector(cluster + CLUSTER_HIGH);
-    real3 gap = meshPoint;
-    gap.x = max(max(low.x - meshPoint.x, meshPoint.x - high.x), real(0.0f));
-    gap.y = max(max(low.y - meshPoint.y, meshPoint.y - high.y), real(0.0f));
-    gap.z = max(max(low.z - meshPoint.z, meshPoint.z - high.z), real(0.0f));
-    return where && dot3(gap, gap) <= meshReach * meshReach;
+    real3 normal = real3(meshVector(cluster + CLUSTER_NORMAL));
+    real3 fromCentre = meshPoint - real3(meshVector(cluster + CLUSTER_CENTRE));
+    real height = dot3(meshPoint, normal);
+    real gap = max(max(meshReal(cluster + CLUSTER_LOW) - height, height - meshReal(cluster + CLUSTER_HIGH)), real(0.0f));
+    real along = dot3(fromCentre, normal);
+    real room = (discInPlane(gap) + meshReal(cluster + CLUSTER_RADIUS)) * 1.01f;
+    return where && gap <= meshReach && dot3(fromCentre, fromCentre) <= along * along + room * room;
 }
 
-// Returns the lists of the cells in which the centres are; the empty list for others.
+// Returns the lists near the cells in which the centres are; the empty list for others.
 uints clustersNear(mask where, Obstacle mesh) {
     real x = floor((meshPoint.x - mesh.a.x) * mesh.a.w);
     real y = floor((meshPoint.y - mesh.a.y) * mesh.a.w);
@@ -230,6 +246,7 @@ void visitMesh(mask where, Obstacle mesh) {
     nearestInside = real(-FAR_AWAY);
     uints place = clustersNear(where, mesh);
     uints number = ROW(obstacleLists, place);
+    mask hasMore = place != NO_OBSTACLES && meshReach > NEAR_SHARE * mesh.b.w;  // clusters beyond the first list
     bool leaves = false;
     mask here = noLane();
     uint triangle = 0u;  // address
@@ -237,6 +254,12 @@ void visitMesh(mask where, Obstacle mesh) {
     while (true) {
         if (triangle == end) {
             uint least = leastOf(number);
+            if (least == END_OF_LIST && anyLane(hasMore)) {
+                place = select(hasMore, place + 1u, place);
+                number = ROW(obstacleLists, place);
+                hasMore = noLane();
+                continue;
+            }
             if (least == END_OF_LIST && !leaves) {
                 // At the end, centres in the solid leave it through the nearest face.
                 leaves = true;
