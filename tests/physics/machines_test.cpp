@@ -245,6 +245,80 @@ TEST_P(Machines, PistonStaysOnItsBalls) {
     EXPECT_LT(highest, 2);
 }
 
+// The flow follows the law of Beverloo: n = C f sqrt(g) (D - k d)^2.5 / V spheres per second, with C = 0.58 and k
+// = 1.4. f is the share of the volume that spheres fill, D is the outlet and V is the volume of a mean sphere.
+TEST_P(Machines, SiloFlowsAtTheRateOfItsOutletAndStops) {
+    const auto simulation = machine("silo");
+    const auto below = [&] {  // the gate
+        return count(bodiesOf(*simulation), [](const Body& body) { return body.x.z < 1.04; });
+    };
+    run(*simulation, 1.5);
+    EXPECT_EQ(below(), 0U);
+    run(*simulation, 1);  // the gate is open from 1.9 s to 4.1 s
+    const std::size_t early = below();
+    run(*simulation, 1.5);
+    const double rate = static_cast<double>(below() - early) / 1.5;
+    constexpr double d = 0.078;
+    constexpr double filled = 0.58;
+    const double law = 0.58 * filled * std::sqrt(9.81) * std::pow(0.44 - 1.4 * d, 2.5) / (pi / 6 * d * d * d);
+    RecordProperty("rate", std::to_string(rate) + " by the law " + std::to_string(law));
+    EXPECT_NEAR(rate, law, 0.2 * law);
+    run(*simulation, 1.6);  // the gate is closed from 4.6 s to 7.5 s
+    const std::size_t passed = below();
+    RecordProperty("passed", std::to_string(passed));
+    run(*simulation, 1.6);
+    EXPECT_EQ(below(), passed);
+    EXPECT_EQ(bodiesOf(*simulation).size(), 3'000U);
+    EXPECT_LT(simulation->statistics().overlapMax, 0.2);
+}
+
+TEST_P(Machines, SievePartsSmallBallsFromLargeOnes) {
+    const auto simulation = machine("sieve");
+    run(*simulation, 9);
+    const std::vector<Body> bodies = bodiesOf(*simulation);
+    ASSERT_EQ(bodies.size(), 1'760U);
+    const auto large = [](const Body& body) { return body.radius > 0.03; };
+    const auto rolledOff = [](const Body& body) { return body.x.x > 1.34 && body.x.z < 0.6; };  // into the bin there
+    const auto fellThrough = [](const Body& body) { return body.x.x < -1.3 && body.x.z < 0.4; };
+    const std::size_t small = count(bodies, [&](const Body& body) { return !large(body) && fellThrough(body); });
+    RecordProperty("small", std::to_string(small));
+    // The bars are above 1 m.
+    EXPECT_EQ(count(bodies, [&](const Body& body) { return large(body) && body.x.x < 1.2 && body.x.z < 0.95; }), 0U);
+    EXPECT_GT(count(bodies, [&](const Body& body) { return large(body) && rolledOff(body); }), 160U);
+    EXPECT_GT(small, 1'200U);
+}
+
+TEST_P(Machines, AvalancheComesToRestOnThePlain) {
+    const auto simulation = machine("avalanche");
+    const auto height = [](const std::vector<Body>& bodies) {
+        double sum = 0;
+        for (const Body& body : bodies) sum += body.x.z / static_cast<double>(bodies.size());
+        return sum;
+    };
+    run(*simulation, 1);
+    std::vector<Body> bodies = bodiesOf(*simulation);
+    EXPECT_EQ(count(bodies, [](const Body& body) { return body.x.x < 0.9; }), 3'000U);  // behind the gate
+    const double before = height(bodies);
+    double last = before;
+    for (int second = 0; second < 6; ++second) {
+        run(*simulation, 1);
+        bodies = bodiesOf(*simulation);
+        EXPECT_LT(height(bodies), last + 0.001) << second;
+        last = height(bodies);
+    }
+    double squares = 0;  // of speeds
+    for (const Body& body : bodies) squares += glm::dot(body.v, body.v);
+    const double speed = std::sqrt(squares / static_cast<double>(bodies.size()));
+    const std::size_t plain = count(bodies, [](const Body& body) { return body.x.x > 4; });
+    RecordProperty("plain", std::to_string(plain) + " at " + std::to_string(speed) + " m/s");
+    EXPECT_EQ(bodies.size(), 3'000U);
+    EXPECT_LT(last, before - 2);
+    EXPECT_GT(plain, 2'100U);
+    EXPECT_LT(speed, 0.5);  // it was 2.7 m/s
+    const scene::Obstacle& ground = simulation->scene().obstacles[0];
+    EXPECT_EQ(count(bodies, [&](const Body& body) { return ground.distance(body.x, 0) < 0.5 * body.radius; }), 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Machines, testing::Values(1U, 2U));
 
 }  // namespace

@@ -30,11 +30,11 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
 }
 
 TEST(SceneLoad, NamesAreSortedAndIncludeTheExamples) {
-    const std::vector<std::string> expected{"ball-mill",  "billiards", "bounce",   "box",        "box-10k",
-                                            "box-4k",     "box-50k",   "conveyor", "cradle",     "cradle-touching",
-                                            "drum",       "galton",    "hopper",   "marble-run", "mixer",
-                                            "piston",     "pour",      "press",    "rapids",     "rapids-3k",
-                                            "rapids-50k", "rapids-6k", "screw",    "stress-1m",  "two-spheres"};
+    const std::vector<std::string> expected{
+        "avalanche", "ball-mill", "billiards",       "bounce",     "box",       "box-10k",    "box-4k",     "box-50k",
+        "conveyor",  "cradle",    "cradle-touching", "drum",       "galton",    "hopper",     "marble-run", "mixer",
+        "piston",    "pour",      "press",           "rapids",     "rapids-3k", "rapids-50k", "rapids-6k",  "screw",
+        "sieve",     "silo",      "stress-1m",       "two-spheres"};
     EXPECT_EQ(names(), expected);
 }
 
@@ -93,10 +93,10 @@ TEST(SceneLoad, CradlesHaveTheNamedProperties) {
 TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
     EXPECT_EQ(
         load("bux", "gpu").error().text(),
-        "\"bux\": is not the name of a scene; there are ball-mill, billiards, bounce, box, box-10k, box-4k, "
-        "box-50k, conveyor, cradle, cradle-touching, drum, galton, hopper, marble-run, mixer, piston, pour, "
-        "press, rapids, rapids-3k, rapids-50k, rapids-6k, screw, stress-1m, two-spheres. A file is named with its "
-        "ending, .json");
+        "\"bux\": is not the name of a scene; there are avalanche, ball-mill, billiards, bounce, box, box-10k, "
+        "box-4k, box-50k, conveyor, cradle, cradle-touching, drum, galton, hopper, marble-run, mixer, piston, pour, "
+        "press, rapids, rapids-3k, rapids-50k, rapids-6k, screw, sieve, silo, stress-1m, two-spheres. A file is named "
+        "with its ending, .json");
 }
 
 TEST(SceneLoad, MissingFilesAreRefused) {
