@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <span>
@@ -208,16 +209,19 @@ class MeshWriter {
             double low = std::numeric_limits<double>::max();
             double high = -low;
             double radius = 0;
+            double bend = 0;  // of patches: the largest distance of a corner from the plane
             for (const std::uint32_t t : triangles)
                 for (unsigned k = 0; k < 3; ++k) {
                     const glm::dvec3& corner = mesh_.corner(t, k);
+                    const scene::Mesh::Patch& patch = mesh_.patches[mesh_.patchOf[t]];
+                    bend = std::max(bend, std::abs(glm::dot(patch.normal, corner) - patch.offset));
                     low = std::min(low, glm::dot(normal, corner));
                     high = std::max(high, glm::dot(normal, corner));
                     radius = std::max(radius, glm::length(glm::cross(normal, corner - one.centre())));
                 }
             put(words_, normal);
-            put(words_, low - rounding());
-            put(words_, high + rounding());
+            put(words_, low - bend - rounding());
+            put(words_, high + bend + rounding());
             put(words_, one.centre());
             put(words_, radius * 1.00001 + rounding());
             words_.push_back(trianglesAt + one.first * TRIANGLE_WORDS);
