@@ -66,7 +66,7 @@ class SourceSet {
 struct Launch {
     const Kernel* kernel = nullptr;
     std::span<Buffer* const> buffers;  // in the order of Kernel::buffers()
-    Buffer* parameters = nullptr;      // the uniform block; may be null
+    Buffer* parameters = nullptr;      // the uniform block, which only upload() writes; may be null
     std::uint32_t phase = 0;           // the kernel's `phase`
     std::uint32_t count = 0;
     Buffer* arguments = nullptr;

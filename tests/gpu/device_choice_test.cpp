@@ -57,7 +57,7 @@ TEST(DeviceChoice, UnknownDevicesAreRefusedWithTheChoices) {
 }
 
 TEST(DeviceChoice, DevicesCanBeOpenedRepeatedly) {
-    for (int round = 0; round < 10; ++round) EXPECT_TRUE(openDevice("software").has_value());
+    for (int round = 0; round < 10; ++round) EXPECT_TRUE(openDevice(support::testDevice()).has_value());
 }
 
 TEST(DeviceChoice, SoftwareIsSurfacelessWithoutEglDevices) {

@@ -3,27 +3,29 @@
 #include <algorithm>
 
 #include "compute/probe.h"
+#include "test_device.h"
 
 namespace spherule::compute {
 namespace {
 
-TEST(Probe, ListsTheSoftwareDeviceAndItsLimits) {
-    const auto result = probe("software");
+TEST(Probe, ListsTheDeviceAndItsLimits) {
+    const auto result = probe(support::testDevice());
     ASSERT_TRUE(result.has_value()) << result.error().text();
     ASSERT_TRUE(result->chosen.has_value()) << result->problem;
-    EXPECT_EQ(result->chosen->kind, "software");
+    EXPECT_EQ(result->chosen->kind, support::testDevice());
     ASSERT_TRUE(result->limits.has_value());
     EXPECT_EQ(result->limits->maxBufferBytes, static_cast<std::int64_t>(result->chosen->maxBufferBytes));
     EXPECT_GE(result->limits->storageBuffersPerKernel, 8);
     EXPECT_GE(result->limits->groupsX, 65535);
     EXPECT_GE(result->limits->groupInvocations, 64);
-    EXPECT_TRUE(std::any_of(result->devices.begin(), result->devices.end(),
-                            [](const auto& d) { return d.choice == "software" && !d.renderer.empty(); }));
+    EXPECT_TRUE(std::any_of(result->devices.begin(), result->devices.end(), [](const auto& d) {
+        return d.choice.starts_with(support::testDevice()) && !d.renderer.empty();
+    }));
     EXPECT_FALSE(result->vendors.empty());
 }
 
 TEST(Probe, TextAndJsonNameTheRenderer) {
-    const auto result = probe("software").value();
+    const auto result = probe(support::testDevice()).value();
     const auto text = probeText(result);
     EXPECT_NE(text.find(result.chosen->renderer), std::string::npos) << text;
     const auto json = probeJson(result);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t maxGroupsX = 32768;          // GL allows at least 65535 in each direction
 constexpr std::uint32_t countInBuffer = 0xffffffff;  // `invocations` of an indirect launch
-constexpr std::size_t downloadChunk = std::size_t{16} << 20U;
+constexpr std::size_t copyChunk = std::size_t{16} << 20U;
 
 const GlBuffer& glBuffer(const Buffer& buffer) {
     return static_cast<const GlBuffer&>(buffer);
@@ -49,7 +49,8 @@ void dispatch(std::uint32_t count, std::uint32_t groupSize) {
 GlDevice::GlDevice(const Opened& opened)
     : context_(opened.context),
       fences_(context_),
-      downloads_(context_),
+      uploads_(context_, Staging::Direction::ToDevice),
+      downloads_(context_, Staging::Direction::FromDevice),
       readBacks_(std::make_shared<ReadBackPlaces>(context_)),
       timers_(context_) {
     context_->use();
@@ -65,12 +66,10 @@ GlDevice::GlDevice(const Opened& opened)
 Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, std::size_t bytes,
                                                        std::string_view /*words*/) {
     if (bytes > info_.maxBufferBytes) {
-        constexpr double mebi = 1 << 20;
         return fail(ErrorKind::Refused, std::string(label),
-                    fmt::format("needs {:.1f} MiB, but a kernel of {} sees at most {:.1f} MiB of one buffer; use fewer "
+                    fmt::format("needs {} bytes, but a kernel of {} sees at most {} bytes of one buffer; use fewer "
                                 "spheres or another device",
-                                static_cast<double>(bytes) / mebi, info_.renderer,
-                                static_cast<double>(info_.maxBufferBytes) / mebi));
+                                bytes, info_.renderer, info_.maxBufferBytes));
     }
     heartbeat::beat("making room on the device");
     return GlBuffer::create(context_, label, bytes);
@@ -86,13 +85,31 @@ Result<std::unique_ptr<Kernel>> GlDevice::createKernel(const SourceSet& sources,
     return GlKernel::create(context_, sources, file, defines);
 }
 
+// Copies through a staging buffer, too: NVIDIA's driver 580 loses a glNamedBufferSubData of 128 KiB or more that
+// follows a clear of the same buffer. The staging buffer keeps its content until the device has read it: a full one
+// waits.
 void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) {
     checkRange("upload", buffer, offset, bytes.size());
     heartbeat::beat("copying to the device");
     context_->use();
     context_->state().beforeCopy();
-    glNamedBufferSubData(glBuffer(buffer).id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
-                         bytes.data());
+    while (!bytes.empty()) {
+        if (!uploads_.reserve(copyChunk)) {
+            copiesFail_ = true;
+            return;
+        }
+        if (uploadsUsed_ == copyChunk) {
+            fences_.wait();
+            uploadsUsed_ = 0;
+        }
+        const std::size_t part = std::min(bytes.size(), copyChunk - uploadsUsed_);
+        std::memcpy(uploads_.data() + uploadsUsed_, bytes.data(), part);
+        glCopyNamedBufferSubData(uploads_.id(), glBuffer(buffer).id(), static_cast<GLintptr>(uploadsUsed_),
+                                 static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(part));
+        uploadsUsed_ += (part + 15) / 16 * 16;  // the next copy begins at a whole vector
+        offset += part;
+        bytes = bytes.subspan(part);
+    }
 }
 
 // Copies through a staging buffer: after a direct read, some drivers keep the buffer in host memory.
@@ -101,8 +118,9 @@ void GlDevice::download(const Buffer& buffer, std::size_t offset, std::span<std:
     context_->use();
     context_->state().beforeCopy();
     while (!bytes.empty()) {
-        const std::size_t part = std::min(bytes.size(), downloadChunk);
+        const std::size_t part = std::min(bytes.size(), copyChunk);
         if (!downloads_.reserve(part)) {
+            copiesFail_ = true;
             std::memset(bytes.data(), 0, bytes.size());
             return;
         }
@@ -170,9 +188,13 @@ void GlDevice::finish() {
 }
 
 Result<void> GlDevice::status() {
-    const char* const cause = context_->resetCause();
-    if (cause == nullptr) return {};
-    return fail(ErrorKind::DeviceLost, info_.renderer, fmt::format("the device was reset: {}", cause));
+    if (const char* const cause = context_->resetCause())
+        return fail(ErrorKind::DeviceLost, info_.renderer, fmt::format("the device was reset: {}", cause));
+    if (copiesFail_)
+        return fail(ErrorKind::Refused, info_.renderer,
+                    fmt::format("the driver has no memory of the host for copies of {} MiB; free some",
+                                copyChunk >> 20U));
+    return {};
 }
 
 }  // namespace spherule::compute::gl

@@ -40,7 +40,10 @@ class GlDevice final : public Device {
     std::shared_ptr<Context> context_;
     DeviceInfo info_;
     Fences fences_;
+    Staging uploads_;
+    std::size_t uploadsUsed_ = 0;  // bytes that the device may still have to read
     Staging downloads_;
+    bool copiesFail_ = false;
     std::shared_ptr<ReadBackPlaces> readBacks_;
     Timers timers_;
 };

@@ -48,7 +48,9 @@ class GlReadBack final : public ReadBack {
 };
 
 ReadBackPlaces::ReadBackPlaces(const std::shared_ptr<Context>& context)
-    : context_(context), places_{Place{Staging(context)}, Place{Staging(context)}} {}
+    : context_(context),
+      places_{Place{Staging(context, Staging::Direction::FromDevice)},
+              Place{Staging(context, Staging::Direction::FromDevice)}} {}
 
 std::unique_ptr<ReadBack> ReadBackPlaces::start(GLuint source, std::size_t bytes) {
     const auto free = std::find_if(places_.begin(), places_.end(), [](const Place& place) { return !place.taken; });

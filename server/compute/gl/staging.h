@@ -7,10 +7,12 @@
 
 namespace spherule::compute::gl {
 
-// Memory that the device writes and the host reads, mapped permanently.
+// Memory of the host that the device copies to or from, mapped permanently.
 class Staging {
   public:
-    explicit Staging(std::shared_ptr<Context> context);
+    enum class Direction { FromDevice, ToDevice };
+
+    Staging(std::shared_ptr<Context> context, Direction direction);
     ~Staging();
     Staging(const Staging&) = delete;
     Staging& operator=(const Staging&) = delete;
@@ -20,15 +22,16 @@ class Staging {
     [[nodiscard]] bool reserve(std::size_t bytes);
 
     [[nodiscard]] GLuint id() const { return id_; }
-    [[nodiscard]] const std::byte* data() const { return data_; }
+    [[nodiscard]] std::byte* data() const { return data_; }
 
   private:
     void release();
 
     std::shared_ptr<Context> context_;
+    Direction direction_;
     GLuint id_ = 0;
     std::size_t bytes_ = 0;
-    const std::byte* data_ = nullptr;
+    std::byte* data_ = nullptr;
 };
 
 }  // namespace spherule::compute::gl

@@ -2,16 +2,21 @@
 
 #include <cstdlib>
 #include <memory>
+#include <string>
 
 #include "compute/device.h"
 #include "value_of.h"
 
 namespace spherule::support {
 
-// Opens the device named by SPHERULE_TEST_DEVICE. The default is Mesa's software renderer, which runs everywhere.
-inline std::unique_ptr<compute::Device> openTestDevice() {
+// SPHERULE_TEST_DEVICE. The default is Mesa's software renderer, which runs everywhere.
+inline std::string testDevice() {
     const char* const named = std::getenv("SPHERULE_TEST_DEVICE");
-    return valueOf(compute::openDevice(named == nullptr ? "software" : named));
+    return named == nullptr ? "software" : named;
+}
+
+inline std::unique_ptr<compute::Device> openTestDevice() {
+    return valueOf(compute::openDevice(testDevice()));
 }
 
 }  // namespace spherule::support
