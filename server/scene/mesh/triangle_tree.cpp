@@ -74,7 +74,8 @@ TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh), order_(mesh.corners.
 
 void TriangleTree::build(std::uint32_t first, std::uint32_t end) {
     const auto number = static_cast<std::uint32_t>(nodes_.size());
-    Node node{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    const glm::dvec3 beyond(std::numeric_limits<double>::infinity());
+    Node node{beyond, -beyond};
     for (std::uint32_t k = first; k < end; ++k)
         for (unsigned corner = 0; corner < 3; ++corner) {
             node.low = glm::min(node.low, mesh_.corner(order_[k], corner));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -89,8 +90,8 @@ void dropDuplicates(Mesh& mesh) {
 }  // namespace
 
 void weld(Mesh& mesh, const Triangles& triangles, double scale) {
-    glm::dvec3 low(INFINITY);
-    glm::dvec3 high(-INFINITY);
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-std::numeric_limits<double>::infinity());
     for (const auto& corners : triangles.corners)
         for (const std::uint32_t corner : corners) {
             low = glm::min(low, triangles.vertices[corner] * scale);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -31,7 +32,7 @@ class Cone final : public Shape {
         const double deepest = std::max(beyondSide, std::abs(p.y) - h);
         if (hollow_) return -deepest;
         if (deepest <= 0) return deepest;
-        double nearest = INFINITY;
+        double nearest = std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k) {
             const glm::dvec2 edge = corners[k + 1] - corners[k];
             const double along = std::clamp(glm::dot(p - corners[k], edge) / glm::dot(edge, edge), 0.0, 1.0);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <spdlog/fmt/fmt.h>
 #include <glm/geometric.hpp>
@@ -20,7 +21,9 @@ class Plane final : public Shape {
     [[nodiscard]] ShapeKind kind() const override { return ShapeKind::Planes; }
     [[nodiscard]] double distance(const glm::dvec3& point) const override { return glm::dot(point - point_, normal_); }
     [[nodiscard]] std::optional<glm::dvec3> normalOfHalfSpace() const override { return normal_; }
-    [[nodiscard]] double farthest(const glm::dvec3& /*from*/) const override { return INFINITY; }
+    [[nodiscard]] double farthest(const glm::dvec3& /*from*/) const override {
+        return std::numeric_limits<double>::infinity();
+    }
     [[nodiscard]] double largestCoordinate(const glm::dvec3& /*origin*/) const override { return 0; }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         return {.a = glm::vec4(glm::dvec4(normal_, glm::dot(normal_, point_ - origin))), .b = glm::vec4(0)};
