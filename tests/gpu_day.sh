@@ -6,17 +6,17 @@
 #       --device NAME      a device of spherule (default: gpu)
 #       --quick            only GPU tests and short benchmarks: shows that everything works, but measures nothing
 #       --only PART        probe, tests or bench; may be given several times (default: all)
+#       --limit SECONDS    ends each command after this time (default: 590)
 #
-# The bundle contains this script; on the host, run `DIR/gpu_day.sh run DIR OUT`. No command takes longer than 10
-# minutes. OUT receives at most 8 files; several runs append to them. If a command fails, the others still run, and the
-# exit code is 1.
+# The bundle contains this script; on the host, run `DIR/gpu_day.sh run DIR OUT`. DIR must be writable: the programs are
+# packed, and are unpacked there. OUT receives at most 8 files; several runs append to them. The tests run at the same
+# time, the other commands one by one. If a command fails, the others still run, and the exit code is 1.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-limit=590  # seconds, of each command
 
 usage() {
-    sed -n '2,13s/^# \?//p' "${BASH_SOURCE[0]}"
+    sed -n '2,14s/^# \?//p' "${BASH_SOURCE[0]}"
     exit "$1"
 }
 
@@ -54,7 +54,14 @@ write_launcher() {
 here=$(cd "$(dirname "$0")" && pwd)
 path=$here/lib
 
-host() { /sbin/ldconfig -p 2>/dev/null | awk -v name="$1" '$1 == name { print $NF; exit }'; }
+# The path of a library of the host: in a folder of LD_LIBRARY_PATH, or where the loader finds it.
+host() {
+    found=$(echo "${LD_LIBRARY_PATH-}" | tr : '\n' | while read -r folder; do
+        [ -z "$folder" ] || [ ! -e "$folder/$1" ] || { echo "$folder/$1"; break; }
+    done)
+    [ -n "$found" ] || found=$(/sbin/ldconfig -p 2>/dev/null | awk -v name="$1" '$1 == name { print $NF; exit }')
+    echo "$found"
+}
 newest() { grep -ao 'GLIBCXX_3\.4\.[0-9]*' "$1" | cut -d. -f3 | sort -n | tail -n 1; }
 
 theirs=$(host libstdc++.so.6)
@@ -65,7 +72,7 @@ fi
 
 # In some containers, the driver is installed without its vendor file.
 if [ -z "${__EGL_VENDOR_LIBRARY_FILENAMES-}" ] && [ -n "$(host libEGL_nvidia.so.0)" ] &&
-    ! ls /etc/glvnd/egl_vendor.d/*nvidia* /usr/share/glvnd/egl_vendor.d/*nvidia* >/dev/null 2>&1; then
+    [ -z "$(find /etc/glvnd/egl_vendor.d /usr/share/glvnd/egl_vendor.d -name '*nvidia*' 2>/dev/null)" ]; then
     export __EGL_VENDOR_LIBRARY_FILENAMES="$here/lib-glvnd/nvidia.json"
     for mesa in /usr/share/glvnd/egl_vendor.d/*mesa*; do
         [ -f "$mesa" ] && __EGL_VENDOR_LIBRARY_FILENAMES=$__EGL_VENDOR_LIBRARY_FILENAMES:$mesa
@@ -114,6 +121,7 @@ bundle() {
     copy_glvnd "$dir"
     write_launcher "$dir"
     cp "${BASH_SOURCE[0]}" "$dir/gpu_day.sh"
+    tar --create --gzip --file "$dir/programs.tar.gz" --remove-files -C "$dir" bin
     size=$(du -sm --apparent-size "$dir" | cut -f1)
     echo "$dir: $size MB, $((${#programs[@]} + ${#tests[@]})) programs"
     [[ $size -lt 60 ]] || { echo "larger than the 60 MB that a bundle may have" >&2; exit 1; }
@@ -138,12 +146,25 @@ run_probe() {
     step "probe" probe.txt "$launch" spherule probe --device "$device"
 }
 
+# One test program and its log; run_tests joins the logs.
+run_test() {
+    local without='*'
+    [[ $device == software ]] || without='-*Software*'  # tests of Mesa's renderer, which a GPU host may lack
+    SPHERULE_TEST_DEVICE=$device step "$1" "tests-$1.txt" "$launch" "$1" --gtest_brief=1 --gtest_filter="$without"
+    return "$failed"
+}
+
 run_tests() {
-    local label test
+    local label test jobs=() job
     while read -r label test; do
         [[ -z $quick || $label == gpu ]] || continue
-        SPHERULE_TEST_DEVICE=$device step "$test" tests.txt "$launch" "$test" --gtest_brief=1
+        run_test "$test" &
+        jobs+=($!)
     done <"$dir/tests.list"
+    for job in "${jobs[@]}"; do wait "$job" || failed=1; done
+    cat "$out"/tests-*.txt >>"$out/tests.txt"
+    rm "$out"/tests-*.txt
+    sed -i 's/`tests-[a-z_]*.txt`/`tests.txt`/' "$out/report.md"
 }
 
 # Succeeds when the last two runs in the log ended in the same state, bit for bit.
@@ -155,20 +176,23 @@ same_state() {
 }
 
 run_bench() {
-    local pace=() duration=2s scene=box-50k
-    [[ -z $quick ]] || { pace=(--quick); duration=0.1s; scene=box-4k; }
-    for _ in 1 2; do
+    local pace=() duration=1s scene scenes=(box-4k box-50k stress-1m rapids mixer)
+    [[ -z $quick ]] || { pace=(--quick); duration=0.1s; scenes=(box-4k); }
+    for scene in "${scenes[@]}"; do
         step "$scene for $duration" bench.txt "$launch" spherule run "$scene" --for "$duration" --json --device "$device"
+        [[ $scene == box-* ]] || continue
+        step "$scene again" bench.txt "$launch" spherule run "$scene" --for "$duration" --json --device "$device"
+        step "same bits from both" bench.txt "$dir/gpu_day.sh" same_state "$out/bench.txt"
     done
-    step "same bits from both" bench.txt "$dir/gpu_day.sh" same_state "$out/bench.txt"
-    step "methods compared" bench.txt "$launch" spherule_bench --device "$device" --ladder 0 "${pace[@]}" \
-        --csv "$out/compare.csv" --markdown "$out/compare.md"
     step "passes over sizes" bench.txt "$launch" spherule_bench --device "$device" --sizes 0 "${pace[@]}" \
         --csv "$out/ladder.csv" --markdown "$out/ladder.md"
+    step "methods compared" bench.txt "$launch" spherule_bench --device "$device" --ladder 0 "${pace[@]}" \
+        --csv "$out/compare.csv" --markdown "$out/compare.md"
 }
 
 run() {
     [[ -x $dir/with_libraries ]] || { echo "$dir is no bundle; $0 bundle $dir makes one" >&2; exit 2; }
+    [[ -d $dir/bin ]] || tar --extract --gzip --file "$dir/programs.tar.gz" -C "$dir"
     if [[ ! -f $out/report.md ]]; then
         {
             echo "# Device \`$device\`, $(date -u +%Y-%m-%d)"
@@ -191,12 +215,13 @@ case $1 in
         [[ $# -ge 3 ]] || usage 2
         mkdir -p "$3"
         dir=$(cd "$2" && pwd) out=$(cd "$3" && pwd)
-        launch=$dir/with_libraries device=gpu quick='' parts=() failed=0
+        launch=$dir/with_libraries device=gpu quick='' limit=590 parts=() failed=0
         shift 3
         while [[ $# -gt 0 ]]; do
             case $1 in
                 --device) device=${2:?--device needs a name}; shift 2 ;;
                 --quick) quick=1; shift ;;
+                --limit) limit=${2:?--limit needs seconds}; shift 2 ;;
                 --only)
                     [[ ${2-} =~ ^(probe|tests|bench)$ ]] || usage 2
                     parts+=("$2")
