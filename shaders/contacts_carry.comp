@@ -15,7 +15,7 @@ BUFFER(readonly, float, contactX)
 BUFFER(readonly, float, contactY)
 BUFFER(readonly, float, contactZ)
 BUFFER(coherent, uint, counters)
-BUFFER(restrict, uint, carriedCount)  // by id: contacts of the owner, and above them the number of the lists
+BUFFER(coherent, uint, carriedCount)  // by id: contacts of the owner, and above them the number of the lists
 BUFFER(writeonly, uvec2, carried)     // by id, CARRIED_MOST each: id of the partner, number of the pair
 
 #include "shared/bundle_words.h"
@@ -23,23 +23,28 @@ BUFFER(writeonly, uvec2, carried)     // by id, CARRIED_MOST each: id of the par
 #include "shared/contact_memory.h"
 #include "shared/contact_owner.h"
 
-KERNEL(bundlesOfPhase()) {
-    uint bundle = bundleOfPhase(invocation);
-    if (!hasList(bundle) || listedPairs(bundle) == 0u) return;
-    uint previous = previousHalf();
-    uint held = 0u;
-    for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) {
-        uint at = previous + k;
-        if (contactX[at] == 0.0f && contactY[at] == 0.0f && contactZ[at] == 0.0f) continue;
-        held = held + 1u;
-        uvec2 pair = pairs[k];
-        bool first = firstOwnsContact(pair.x, pair.y);
-        uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
-        uint partner = idOf(idAndMaterial[first ? pair.y : pair.x]);
-        uint count = carriedBy(owner);
-        if (count == CARRIED_MOST) continue;
-        carriedCount[owner] = (counters[COUNTER_LISTS] << 8u) | (count + 1u);
-        carried[owner * CARRIED_MOST + count] = uvec2(partner | (first ? FIRST_OWNS : 0u), k);
-    }
-    if (held > 0u) atomicAdd(counters[COUNTER_CARRIED], held);
+PRIVATE(uint, noted)
+
+bool beginBundle(uint bundle) {
+    noted = 0u;
+    return hasList(bundle) && listedPairs(bundle) > 0u;
 }
+
+void endBundle(uint bundle) {
+    if (noted > 0u) atomicAdd(counters[COUNTER_CARRIED], noted);
+}
+
+void visitPairs(uint a, uint b, uint at) {
+    uint memory = previousHalf() + at;
+    if (contactX[memory] == 0.0f && contactY[memory] == 0.0f && contactZ[memory] == 0.0f) return;
+    noted = noted + 1u;
+    bool first = firstOwnsContact(a, b);
+    uint owner = idOf(idAndMaterial[first ? a : b]);
+    uint partner = idOf(idAndMaterial[first ? b : a]);
+    uint count = carriedBy(owner);
+    if (count == CARRIED_MOST) return;
+    carriedCount[owner] = (counters[COUNTER_LISTS] << 8u) | (count + 1u);
+    carried[owner * CARRIED_MOST + count] = uvec2(partner | (first ? FIRST_OWNS : 0u), at);
+}
+
+PAIR_KERNEL

@@ -56,13 +56,13 @@ uint ownerOf(uvec2 pair) {
     return idOf(idAndMaterial[firstOwnsContact(pair.x, pair.y) ? pair.x : pair.y]);
 }
 
-KERNEL(params.bundles) {
+BUNDLE_KERNEL(params.bundles) {
     uint bundle = invocation;
     if (!hasList(bundle) || listedPairs(bundle) == 0u) return;
     uint present = presentHalf();
     uint previous = previousHalf();
     restored = 0u;
-    for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) {
+    for (uint k = firstPair(bundle) + THREAD; k < endOfPairs(bundle); k += THREADS) {
         clear(present + k);
         PREFETCH(carried[ownerOf(pairs[min(k + PAIRS_AHEAD, endOfPairs(bundle) - 1u)]) * CARRIED_MOST])
         uvec2 pair = pairs[k];

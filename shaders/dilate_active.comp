@@ -18,20 +18,25 @@ uint around(uint at, uint k, uint count) {
     return shifted - 1u == count ? 0u : shifted - 1u;
 }
 
-KERNEL(params.bundles) {
+SHARED(uint, anyAwake)
+
+BUNDLE_KERNEL(params.bundles) {
     if (bundles[invocation * BUNDLE_WORDS + 1u] == 0u) return;  // no pairs
     uint level = levelOfBundle(invocation);
     uvec4 cells = cellsOf(level);
     uint substep = counters[COUNTER_SUBSTEPS];
-    bool anyAwake = false;
-    for (uint part = 0u; part < BLOCKS_PER_BUNDLE && !anyAwake; ++part) {
-        BlockPlace block = blockOfBundle(invocation, level, part);
-        for (uint k = 0u; k < 27u && block.exists && !anyAwake; ++k) {
-            uint x = around(block.x, k % 3u, cells.x / 4u);
-            uint y = around(block.y, k / 3u % 3u, cells.y / 4u);
-            uint z = around(block.z, k / 9u, cells.z / 4u);
-            anyAwake = activeBlock[blockNumber(cells, x, y, z)] == substep;
-        }
+    if (FIRST_THREAD) anyAwake = 0u;
+    BARRIER
+    bool awake = false;
+    for (uint place = THREAD; place < 27u * BLOCKS_PER_BUNDLE && !awake; place += THREADS) {
+        BlockPlace block = blockOfBundle(invocation, level, place / 27u);
+        uint k = place % 27u;
+        uint x = around(block.x, k % 3u, cells.x / 4u);
+        uint y = around(block.y, k / 3u % 3u, cells.y / 4u);
+        uint z = around(block.z, k / 9u, cells.z / 4u);
+        awake = block.exists && activeBlock[blockNumber(cells, x, y, z)] == substep;
     }
-    bundles[invocation * BUNDLE_WORDS + 2u] = anyAwake ? 1u : 0u;
+    if (awake) anyAwake = 1u;
+    BARRIER
+    if (FIRST_THREAD) bundles[invocation * BUNDLE_WORDS + 2u] = anyAwake;
 }

@@ -38,10 +38,11 @@ void visitPair(uint a, uint b) {
 #include "shared/visit_range.h"
 #include "shared/group.h"
 
-KERNEL(params.bundles) {
+BUNDLE_KERNEL(params.bundles) {
     if (!hasList(invocation)) {
-        visitBundle(invocation, firstPair(invocation));
+        if (FIRST_THREAD) visitBundle(invocation, firstPair(invocation));
     } else if (listedPairs(invocation) > 0u) {
-        for (uint k = firstPair(invocation); k < endOfPairs(invocation); ++k) visitPair(pairs[k].x, pairs[k].y);
+        for (uint k = firstPair(invocation) + THREAD; k < endOfPairs(invocation); k += THREADS)
+            visitPair(pairs[k].x, pairs[k].y);
     }
 }

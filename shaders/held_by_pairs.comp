@@ -18,8 +18,8 @@ BUFFER(readonly, float, torqueX)
 BUFFER(readonly, float, torqueY)
 BUFFER(readonly, float, torqueZ)
 BUFFER(readonly, uint, counters)
-BUFFER(restrict, vec4, heldVelocity)
-BUFFER(restrict, vec4, heldSpin)
+BUFFER(coherent, vec4, heldVelocity)
+BUFFER(coherent, vec4, heldSpin)
 
 #include "shared/bundle_words.h"
 #include "shared/contact_memory.h"
@@ -33,16 +33,21 @@ void addHeld(uint sphere, vec3 impulse, vec3 torque) {
     heldSpin[sphere] = vec4(vec3(heldSpin[sphere]) - torque * lever, 0.0f);
 }
 
-KERNEL(bundlesOfPhase()) {
-    uint bundle = bundleOfPhase(invocation);
-    if (!hasList(bundle) || listedPairs(bundle) == 0u) return;
-    for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) {
-        uint at = presentHalf() + k;
-        vec3 impulse = vec3(contactX[at], contactY[at], contactZ[at]);
-        if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f) continue;
-        vec3 torque = vec3(0.0f, 0.0f, 0.0f);
-        if (HAS(FRICTION)) torque = vec3(torqueX[at], torqueY[at], torqueZ[at]);
-        addHeld(pairs[k].x, impulse, torque);
-        addHeld(pairs[k].y, -impulse, torque);
-    }
+bool beginBundle(uint bundle) {
+    return hasList(bundle) && listedPairs(bundle) > 0u;
 }
+
+void endBundle(uint bundle) {
+}
+
+void visitPairs(uint a, uint b, uint at) {
+    uint memory = presentHalf() + at;
+    vec3 impulse = vec3(contactX[memory], contactY[memory], contactZ[memory]);
+    if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f) return;
+    vec3 torque = vec3(0.0f, 0.0f, 0.0f);
+    if (HAS(FRICTION)) torque = vec3(torqueX[memory], torqueY[memory], torqueZ[memory]);
+    addHeld(a, impulse, torque);
+    addHeld(b, -impulse, torque);
+}
+
+PAIR_KERNEL

@@ -21,6 +21,7 @@ BUFFER(writeonly, vec4, overlaps)  // contacts, sum and largest of overlap / r, 
 PRIVATE(float, contacts)
 PRIVATE(float, sum)
 PRIVATE(float, largest)
+SHARED(vec3, partialSums[BUNDLE_THREADS])
 
 void visitPair(uint a, uint b) {
     vec4 pa = position[a];
@@ -44,14 +45,35 @@ void visitPair(uint a, uint b) {
 #include "shared/visit_range.h"
 #include "shared/group.h"
 
-KERNEL(params.bundles) {
+void beginSum() {
     contacts = 0.0f;
     sum = 0.0f;
     largest = 0.0f;
+}
+
+BUNDLE_KERNEL(params.bundles) {
     if (!hasList(invocation)) {
+        if (!FIRST_THREAD) return;
+        beginSum();
         visitBundle(invocation, firstPair(invocation));
-    } else if (listedPairs(invocation) > 0u) {
-        for (uint k = firstPair(invocation); k < endOfPairs(invocation); ++k) visitPair(pairs[k].x, pairs[k].y);
+        overlaps[invocation] = vec4(contacts, sum, largest, 0.0f);
+        return;
+    }
+    // The sums have one order for any number of threads.
+    for (uint part = THREAD; part < BUNDLE_THREADS; part += THREADS) {
+        beginSum();
+        if (listedPairs(invocation) > 0u)
+            for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS)
+                visitPair(pairs[k].x, pairs[k].y);
+        partialSums[part] = vec3(contacts, sum, largest);
+    }
+    BARRIER
+    if (!FIRST_THREAD) return;
+    beginSum();
+    for (uint part = 0u; part < BUNDLE_THREADS; ++part) {
+        contacts = contacts + partialSums[part].x;
+        sum = sum + partialSums[part].y;
+        largest = max(largest, partialSums[part].z);
     }
     overlaps[invocation] = vec4(contacts, sum, largest, 0.0f);
 }

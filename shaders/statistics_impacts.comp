@@ -24,6 +24,7 @@ BUFFER(restrict, vec4, impacts)  // until the host takes them: impacts, sums of 
 #define WEIGHTLESS 10.0f
 
 PRIVATE(vec4, sum)
+SHARED(vec4, partialSums[BUNDLE_THREADS])
 
 void visitPair(uint a, uint b) {
     // No speed along a direction exceeds the speed.
@@ -57,9 +58,18 @@ void visitPair(uint a, uint b) {
 
 #include "shared/bundle_words.h"
 
-KERNEL(params.bundles) {
+BUNDLE_KERNEL(params.bundles) {
     if (!hasList(invocation) || listedPairs(invocation) == 0u || (HAS(SLEEP) && !isActive(invocation))) return;
-    sum = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    for (uint k = firstPair(invocation); k < endOfPairs(invocation); ++k) visitPair(pairs[k].x, pairs[k].y);
+    // The sums have one order for any number of threads.
+    for (uint part = THREAD; part < BUNDLE_THREADS; part += THREADS) {
+        sum = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+        for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS)
+            visitPair(pairs[k].x, pairs[k].y);
+        partialSums[part] = sum;
+    }
+    BARRIER
+    if (!FIRST_THREAD) return;
+    sum = partialSums[0];
+    for (uint part = 1u; part < BUNDLE_THREADS; ++part) sum = sum + partialSums[part];
     if (sum.x > 0.0f) impacts[invocation] = impacts[invocation] + sum;
 }

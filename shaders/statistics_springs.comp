@@ -45,15 +45,25 @@ float energyOf(uint a, uint b) {
 #include "shared/bundle_words.h"
 #include "shared/contact_memory.h"
 
-KERNEL(params.bundles) {
+SHARED(float, partialSums[BUNDLE_THREADS])
+
+BUNDLE_KERNEL(params.bundles) {
     if (!hasList(invocation) || listedPairs(invocation) == 0u) return;
-    float energy = 0.0f;
-    displacement = vec3(0.0f, 0.0f, 0.0f);
-    for (uint k = firstPair(invocation); k < endOfPairs(invocation); ++k) {
-        uint at = presentHalf() + k;
-        if (HAS(FRICTION)) displacement = vec3(contactX[at], contactY[at], contactZ[at]);
-        energy += energyOf(pairs[k].x, pairs[k].y);
+    // The sums have one order for any number of threads.
+    for (uint part = THREAD; part < BUNDLE_THREADS; part += THREADS) {
+        float energy = 0.0f;
+        displacement = vec3(0.0f, 0.0f, 0.0f);
+        for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS) {
+            uint at = presentHalf() + k;
+            if (HAS(FRICTION)) displacement = vec3(contactX[at], contactY[at], contactZ[at]);
+            energy += energyOf(pairs[k].x, pairs[k].y);
+        }
+        partialSums[part] = energy;
     }
+    BARRIER
+    if (!FIRST_THREAD) return;
+    float energy = 0.0f;
+    for (uint part = 0u; part < BUNDLE_THREADS; ++part) energy += partialSums[part];
     vec4 row = overlaps[invocation];
     overlaps[invocation] = vec4(row.x, row.y, row.z, energy);
 }

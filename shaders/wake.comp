@@ -12,7 +12,7 @@ PARAMETERS
 #include "shared/wake.h"
 
 BUFFER(readonly, vec4, position)
-BUFFER(restrict, vec4, velocity)
+BUFFER(coherent, vec4, velocity)
 BUFFER(readonly, vec4, restReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
@@ -43,13 +43,18 @@ void visitPair(uint a, uint b) {
 #include "shared/visit_range.h"
 #include "shared/group.h"
 
-KERNEL(bundlesOfPhase()) {
-    uint bundle = bundleOfPhase(invocation);
-    if (counters[COUNTER_RESTING] == 0u || !isActive(bundle)) return;
-    if (!hasList(bundle)) {
-        visitBundle(bundle, firstPair(bundle));
-        return;
-    }
-    if (listedPairs(bundle) == 0u) return;
-    for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) visitPair(pairs[k].x, pairs[k].y);
+bool beginBundle(uint bundle) {
+    if (counters[COUNTER_RESTING] == 0u || !isActive(bundle)) return false;
+    if (hasList(bundle)) return listedPairs(bundle) > 0u;
+    if (FIRST_THREAD) visitBundle(bundle, firstPair(bundle));
+    return false;
 }
+
+void endBundle(uint bundle) {
+}
+
+void visitPairs(uint a, uint b, uint at) {
+    visitPair(a, b);
+}
+
+PAIR_KERNEL

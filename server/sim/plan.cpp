@@ -63,7 +63,7 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::BundleWord:
             return (std::uint64_t{plan.grid.bundles()} + 1) * BUNDLE_WORDS +
                    (plan.features.has(Feature::ContactSums)
-                        ? std::uint64_t{plan.grid.bundles()} * SUM_THREADS * SUM_WORDS
+                        ? std::uint64_t{plan.grid.bundles()} * BUNDLE_THREADS * SUM_WORDS
                         : 0);
         case Extent::Pair:
             return plan.pairCapacity;
@@ -128,10 +128,10 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
     rows[LAUNCH_ONE] = 1;
     rows[LAUNCH_GROUPS] = plan.groups();
     rows[LAUNCH_OUTSIDE] = MOST_OUTSIDE;
-    rows[LAUNCH_BUNDLES] = plan.grid.bundles();
-    rows[LAUNCH_COLOUR] = colour;
+    rows[LAUNCH_BUNDLES] = BUNDLE_THREADS * plan.grid.bundles();
+    rows[LAUNCH_COLOUR] = BUNDLE_THREADS * colour;
     rows[LAUNCH_LOST_SPHERES] = plan.spheres;
-    rows[LAUNCH_LOST_COLOUR] = colour;
+    rows[LAUNCH_LOST_COLOUR] = BUNDLE_THREADS * colour;
     rows[LAUNCH_UNLISTED] = colour;
     return rows;
 }
@@ -154,7 +154,7 @@ void addRequests(Plan& plan) {
     plan.figures.push_back(over(Varying::Spheres, "figures_surfaces.comp", aliases));
     if (plan.features.has(Feature::Contacts)) {
         plan.figures.push_back(over(Varying::Nothing, "figures_contacts.comp", aliases));
-        plan.figures.back().count = plan.grid.bundles();
+        plan.figures.back().count = BUNDLE_THREADS * plan.grid.bundles();
     }
     plan.figures.push_back(over(Varying::Spheres, "figures.comp", aliases));
     plan.figures.back().aliases.push_back({"figures", figuresArray});

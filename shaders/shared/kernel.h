@@ -40,7 +40,16 @@
 //   EACH_LANE_VECTORS(where, function, number, more, a, b)  Calls the function with the number, `more` and the vec3 of
 //                               each lane in `where`. `number`: uints. `more`: any value. `a`, `b`: real3.
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
-//   THREAD                      The number of the thread in the work group that visits a bundle; 0 in C++.
+//
+// A bundle of pairs is the work of a work group on a GPU, and of one thread in C++.
+//
+//   BUNDLE_KERNEL(count) { ... }  Defines the body of all threads of a work group; `invocation` is the group's number.
+//   THREAD, THREADS             The number of the thread in its work group, and of threads: 0 and 1 in C++.
+//   FIRST_THREAD                True in one thread of the work group.
+//   SHARED(type, name)          Declares a variable of the work group.
+//   ADD_SHARED(word, value)     Adds to a uint of the work group, from any thread.
+//   BARRIER                     Waits for all threads, and shows each what the others have written to such variables.
+//   BUFFER_BARRIER              The same, and for buffers that are declared `coherent`.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 #ifndef __cplusplus
 
@@ -93,25 +102,48 @@ layout(location = 0) uniform uint phase;
 #define LANE_LOOP_KERNEL(count) KERNEL(count)
 #define SUM_OF_LANES(value) (value)
 #define THREAD gl_LocalInvocationID.x
+#define THREADS uint(LOCAL_SIZE)
 #define FIRST_THREAD (THREAD == 0u)
+#define SHARED(type, name) shared type name;
+#define ADD_SHARED(word, value) atomicAdd(word, value);
+#define BARRIER            \
+    memoryBarrierShared(); \
+    barrier();
+#define BUFFER_BARRIER     \
+    memoryBarrierBuffer(); \
+    BARRIER
+#define BUNDLE_KERNEL(count)                                                                     \
+    void kernelBody(uint invocation);                                                            \
+    void main() {                                                                                \
+        uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;                   \
+        if (index < (count)) kernelBody(index);                                                  \
+    }                                                                                            \
+    void kernelBody(uint invocation)
+// The next pair of each thread is read before the barrier. Pairs beyond the last batch are batches of one pair.
 #define PAIR_KERNEL                                                                              \
+    shared uint batchEnds[BATCHES];                                                              \
     void main() {                                                                                \
         uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;                   \
         if (index >= bundlesOfPhase()) return;                                                   \
         uint bundle = bundleOfPhase(index);                                                      \
         if (!beginBundle(bundle)) return;                                                        \
+        if (THREAD < BATCHES) batchEnds[THREAD] = endOfBatch(bundle, THREAD);                    \
+        BARRIER                                                                                  \
         uint from = firstPair(bundle);                                                           \
-        for (uint batch = 0u; batch < BATCHES; ++batch) {                                        \
-            uint to = endOfBatch(bundle, batch);                                                 \
+        uint end = endOfPairs(bundle);                                                           \
+        uvec2 next = pairs[min(from + THREAD, params.pairCapacity - 1u)];                        \
+        for (uint batch = 0u; from < end; ++batch) {                                             \
+            uint to = batch < BATCHES ? batchEnds[batch] : from + 1u;                            \
             if (from == to) continue;                                                            \
-            for (uint k = from + gl_LocalInvocationID.x; k < to; k += uint(LOCAL_SIZE))          \
-                visitPairs(pairs[k].x, pairs[k].y, k);                                           \
+            uvec2 pair = next;                                                                   \
+            next = pairs[min(to + THREAD, params.pairCapacity - 1u)];                            \
+            for (uint k = from + THREAD; k < to; k += THREADS) {                                 \
+                if (k >= from + THREADS) pair = pairs[k];                                        \
+                visitPairs(pair.x, pair.y, k);                                                   \
+            }                                                                                    \
             from = to;                                                                           \
-            memoryBarrierBuffer();                                                               \
-            barrier();                                                                           \
+            BUFFER_BARRIER                                                                       \
         }                                                                                        \
-        if (FIRST_THREAD)                                                                        \
-            for (uint k = from; k < endOfPairs(bundle); ++k) visitPairs(pairs[k].x, pairs[k].y, k); \
         endBundle(bundle);                                                                       \
     }
 #define LANE_PAIR_KERNEL PAIR_KERNEL

@@ -69,7 +69,7 @@ foreach(file ${kernel_files} ${shared_files})
   set(smallest_range 4)
   if(text MATCHES "\nLANE_KERNEL")
     set(smallest_range 16)
-  elseif(text MATCHES "\n(LANE_)?PAIR_KERNEL|\nKERNEL\\(bundlesOfPhase")
+  elseif(text MATCHES "\n(LANE_)?PAIR_KERNEL|\nBUNDLE_KERNEL|\nKERNEL\\(bundlesOfPhase")
     set(smallest_range 1)
   endif()
   string(CONCAT struct

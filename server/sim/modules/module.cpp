@@ -24,27 +24,27 @@ void PlanBuilder::overSpheres(Stage stage, Pass pass, std::string_view kernel, s
 }
 
 void PlanBuilder::overBundles(Stage stage, Pass pass, std::string_view kernel) {
-    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.grid.bundles()}});
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = BUNDLE_THREADS * plan_.grid.bundles()}});
 }
 
 void PlanBuilder::overStatisticBlocks(Stage stage, Pass pass, std::string_view kernel) {
     staged_.push_back({stage, {.pass = pass, .kernel = kernel, .over = Varying::StatisticBlocks}});
 }
 
-void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel, std::uint32_t threads) {
+void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel) {
     if (!has(Feature::Contacts)) return;
     for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level)
         for (std::uint32_t colour = 0; colour < 8; ++colour)
             staged_.push_back({stage,
                                {.pass = pass,
                                 .kernel = kernel,
-                                .count = threads * plan_.grid.levels[level].bundlesOfColour(),
+                                .count = BUNDLE_THREADS * plan_.grid.levels[level].bundlesOfColour(),
                                 .phase = 8 * level + colour}});
 }
 
 void PlanBuilder::overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row) {
     const std::size_t first = staged_.size();
-    overPairs(stage, pass, kernel, 1);
+    overPairs(stage, pass, kernel);
     for (std::size_t k = first; k < staged_.size(); ++k) staged_[k].launch.launchRow = row;
 }
 

@@ -53,13 +53,14 @@ class PlanBuilder {
 
     // `aliases`: buffers of the kernel whose names differ from the arrays to bind.
     void overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases = {});
+    // Runs a work group for each bundle.
     void overBundles(Stage stage, Pass pass, std::string_view kernel);
     // Runs for each STATISTIC_BLOCK spheres.
     void overStatisticBlocks(Stage stage, Pass pass, std::string_view kernel);
-    // Runs over all listed pairs: one colour of bundles after the other, level after level. `threads`: invocations for
-    // each bundle.
-    void overPairs(Stage stage, Pass pass, std::string_view kernel, std::uint32_t threads = 64);
-    // The same for a kernel with one invocation for each bundle, while row `row` of the launch table is not empty.
+    // Runs over all listed pairs: one colour of bundles after the other, level after level, a work group for each
+    // bundle.
+    void overPairs(Stage stage, Pass pass, std::string_view kernel);
+    // The same while row `row` of the launch table is not empty.
     void overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row);
     void once(Stage stage, Pass pass, std::string_view kernel);
     // Runs while the lists are rebuilt. Row `row` of the launch table holds the number of invocations.

@@ -15,7 +15,7 @@ void declareSleep(PlanBuilder& plan) {
     plan.overPairsIf(Stage::Leavers, Pass::Grid, "wake.comp", LAUNCH_COLOUR);
     plan.overSpheres(Stage::Activity, Pass::Sleep, "mark_active.comp");
     plan.overBundles(Stage::Activity, Pass::Sleep, "dilate_active.comp");
-    plan.overPairs(Stage::Activity, Pass::Sleep, "wake.comp", 1);
+    plan.overPairs(Stage::Activity, Pass::Sleep, "wake.comp");
     plan.overSpheres(Stage::Sleep, Pass::Sleep, "sleep.comp");
 }
 
