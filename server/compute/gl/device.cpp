@@ -191,9 +191,9 @@ Result<void> GlDevice::status() {
     if (const char* const cause = context_->resetCause())
         return fail(ErrorKind::DeviceLost, info_.renderer, fmt::format("the device was reset: {}", cause));
     if (copiesFail_)
-        return fail(ErrorKind::Refused, info_.renderer,
-                    fmt::format("the driver has no memory of the host for copies of {} MiB; free some",
-                                copyChunk >> 20U));
+        return fail(
+            ErrorKind::Refused, info_.renderer,
+            fmt::format("the driver has no memory of the host for copies of {} MiB; free some", copyChunk >> 20U));
     return {};
 }
 
