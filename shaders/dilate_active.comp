@@ -28,13 +28,14 @@ BUNDLE_KERNEL(params.bundles) {
     if (FIRST_THREAD) anyAwake = 0u;
     BARRIER
     bool awake = false;
-    for (uint place = THREAD; place < 27u * BLOCKS_PER_BUNDLE && !awake; place += THREADS) {
-        BlockPlace block = blockOfBundle(invocation, level, place / 27u);
-        uint k = place % 27u;
-        uint x = around(block.x, k % 3u, cells.x / 4u);
-        uint y = around(block.y, k / 3u % 3u, cells.y / 4u);
-        uint z = around(block.z, k / 9u, cells.z / 4u);
-        awake = block.exists && activeBlock[blockNumber(cells, x, y, z)] == substep;
+    for (uint part = 0u; part < BLOCKS_PER_BUNDLE && !awake; ++part) {
+        BlockPlace block = blockOfBundle(invocation, level, part);
+        for (uint k = THREAD; k < 27u && block.exists && !awake; k += THREADS) {
+            uint x = around(block.x, k % 3u, cells.x / 4u);
+            uint y = around(block.y, k / 3u % 3u, cells.y / 4u);
+            uint z = around(block.z, k / 9u, cells.z / 4u);
+            awake = activeBlock[blockNumber(cells, x, y, z)] == substep;
+        }
     }
     if (awake) anyAwake = 1u;
     BARRIER

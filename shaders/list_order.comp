@@ -12,7 +12,7 @@ PARAMETERS
 
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uvec2, groupRange)
-BUFFER(restrict, uvec2, candidates)
+BUFFER(restrict, uvec2, candidates)  // a thread reads back only what it has written
 BUFFER(coherent, uint, busyBatches)  // the batches that hold the sphere, and the phase in which they do
 BUFFER(coherent, uint, counters)
 BUFFER(writeonly, uvec2, pairs)
@@ -28,12 +28,14 @@ BUFFER(writeonly, uint, bundles)
 #define GROUPS_PER_BUNDLE (8u * BLOCKS_PER_BUNDLE)
 #define UNDECIDED 0xffffffffu
 #define NONE 0xffffffffu
+#define UNROLLED 8u  // passes of a loop that compilers unroll; divides THREADS
 
 SHARED(uint, groupEnd[GROUPS_PER_BUNDLE])     // candidates of the bundle up to the end of the group
 SHARED(uint, groupOffset[GROUPS_PER_BUNDLE])  // from the number of a candidate in the bundle to its index
 SHARED(uint, places[PLACES])         // by batch, close pairs and far pairs: first how many, then the next place
 SHARED(uint, firstPlace)             // NONE if there is no room
 SHARED(uint, undecided)              // candidates of the tile whose batch is not chosen
+SHARED(uint, cutShort)               // 1 if a loop has ended early, and places of the list are wrong
 SHARED(uvec2, tilePair[THREADS])
 SHARED(uint, tileChoice[THREADS])    // batch, later place
 
@@ -115,15 +117,17 @@ void chooseBatches(uint tile, uint total) {
     waits[1] = 0u;
     bool lastOfA = true;
     bool lastOfB = true;
-    for (uint other = 0u; other < THREADS && mine; ++other) {
-        uvec2 spheres = tilePair[other];
-        bool sharesA = spheres.x == a || spheres.y == a;
-        bool sharesB = spheres.x == b || spheres.y == b;
-        if (other > THREAD) {
-            lastOfA = lastOfA && !sharesA;
-            lastOfB = lastOfB && !sharesB;
-        } else if (other < THREAD && (sharesA || sharesB)) {
-            waits[other / 32u] = waits[other / 32u] | (1u << (other % 32u));
+    for (uint first = 0u; first < THREADS && mine && THREADS > 1u; first += UNROLLED) {
+        for (uint other = first; other < first + UNROLLED; ++other) {
+            uvec2 spheres = tilePair[other];
+            bool sharesA = spheres.x == a || spheres.y == a;
+            bool sharesB = spheres.x == b || spheres.y == b;
+            if (other > THREAD) {
+                lastOfA = lastOfA && !sharesA;
+                lastOfB = lastOfB && !sharesB;
+            } else if (other < THREAD && (sharesA || sharesB)) {
+                waits[other / 32u] = waits[other / 32u] | (1u << (other % 32u));
+            }
         }
     }
     uint batch = UNDECIDED;
@@ -174,12 +178,14 @@ void copyToPlaces(uint tile, uint total) {
     BARRIER
     uint rank = 0u;
     bool last = mine;
-    for (uint other = 0u; other < THREADS && mine; ++other) {
-        if (other == THREAD || tileChoice[other] != place) continue;
-        if (other < THREAD)
-            rank = rank + 1u;
-        else
-            last = false;
+    for (uint first = 0u; first < THREADS && mine && THREADS > 1u; first += UNROLLED) {
+        for (uint other = first; other < first + UNROLLED; ++other) {
+            if (other == THREAD || tileChoice[other] != place) continue;
+            if (other < THREAD)
+                rank = rank + 1u;
+            else
+                last = false;
+        }
     }
     if (mine) pairs[places[place] + rank] = uvec2(pair.x & SLOT_BITS, pair.y & SLOT_BITS);
     BARRIER
@@ -199,6 +205,7 @@ BUNDLE_KERNEL(bundlesOfPhase()) {
     if (total == 0u) return;
     uint tiles = 0u;
     groupOfThread = 0u;
+    if (FIRST_THREAD) cutShort = 0u;
     for (uint tile = 0u; tile < total; tile += THREADS) {
         chooseBatches(tile, total);
         tiles = tiles + 1u;
@@ -206,6 +213,10 @@ BUNDLE_KERNEL(bundlesOfPhase()) {
     if (FIRST_THREAD) {
         uint start = atomicAdd(counters[COUNTER_PAIRS], total + PAIR_PADDING);
         bool fits = total + PAIR_PADDING <= params.pairCapacity && start <= params.pairCapacity - total - PAIR_PADDING;
+        uint placed = 0u;
+        for (uint k = 0u; k < PLACES; ++k) placed = placed + places[k];
+        if (placed != total) cutShort = 1u;
+        fits = fits && placed == total;
         firstPlace = fits ? start : NONE;
         if (fits) {
             bundles[words] = start;
@@ -221,14 +232,15 @@ BUNDLE_KERNEL(bundlesOfPhase()) {
         }
     }
     BARRIER
-    if (firstPlace == NONE) return;
+    // One tile more than there are: as in list_build.comp, loops may have ended early.
     groupOfThread = 0u;
-    for (uint tile = 0u; tile < total; tile += THREADS) {
+    for (uint tile = 0u; tile < total + THREADS && firstPlace != NONE; tile += THREADS) {
         copyToPlaces(tile, total);
         tiles = tiles + 1u;
     }
-    if (tiles == 2u * ((total + THREADS - 1u) / THREADS)) return;
-    // As in list_build.comp: the loops have ended early, so that places of the list are not written.
-    bundles[words + 1u] = 0u;
+    if (firstPlace != NONE && tiles != 2u * ((total + THREADS - 1u) / THREADS) + 1u) cutShort = 1u;
+    BARRIER
+    if (!FIRST_THREAD || cutShort == 0u) return;
+    bundles[words + 1u] = 0u;  // places of the list are not written
     atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
 }

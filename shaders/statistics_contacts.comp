@@ -59,12 +59,15 @@ BUNDLE_KERNEL(params.bundles) {
         overlaps[invocation] = vec4(contacts, sum, largest, 0.0f);
         return;
     }
+    if (listedPairs(invocation) == 0u) {
+        if (FIRST_THREAD) overlaps[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+        return;
+    }
     // The sums have one order for any number of threads.
     for (uint part = THREAD; part < BUNDLE_THREADS; part += THREADS) {
         beginSum();
-        if (listedPairs(invocation) > 0u)
-            for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS)
-                visitPair(pairs[k].x, pairs[k].y);
+        for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS)
+            visitPair(pairs[k].x, pairs[k].y);
         partialSums[part] = vec3(contacts, sum, largest);
     }
     BARRIER

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::uint32_t workgroup = 64;
 constexpr std::uint32_t maxGroupsPerAxis = 32768;
+static_assert(workgroup == BUNDLE_THREADS);
 static_assert(scene::maxSpheres <= Pipeline::idMask);
 static_assert(scene::maxMaterials <= 1U << (32 - Pipeline::idBits));
 

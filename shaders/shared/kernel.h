@@ -40,17 +40,18 @@
 //   EACH_LANE_VECTORS(where, function, number, more, a, b)  Calls the function with the number, `more` and the vec3 of
 //                               each lane in `where`. `number`: uints. `more`: any value. `a`, `b`: real3.
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
+//   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 //
 // A bundle of pairs is the work of a work group on a GPU, and of one thread in C++.
 //
 //   BUNDLE_KERNEL(count) { ... }  Defines the body of all threads of a work group; `invocation` is the group's number.
-//   THREAD, THREADS             The number of the thread in its work group, and of threads: 0 and 1 in C++.
+//   THREAD                      The number of the thread in its work group; 0 in C++.
+//   THREADS                     The number of threads of a work group; 1 in C++.
 //   FIRST_THREAD                True in one thread of the work group.
 //   SHARED(type, name)          Declares a variable of the work group.
 //   ADD_SHARED(word, value)     Adds to a uint of the work group, from any thread.
 //   BARRIER                     Waits for all threads, and shows each what the others have written to such variables.
 //   BUFFER_BARRIER              The same, and for buffers that are declared `coherent`.
-//   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 #ifndef __cplusplus
 
 #ifndef LOCAL_SIZE
@@ -127,7 +128,7 @@ layout(location = 0) uniform uint phase;
         if (index >= bundlesOfPhase()) return;                                                   \
         uint bundle = bundleOfPhase(index);                                                      \
         if (!beginBundle(bundle)) return;                                                        \
-        if (THREAD < BATCHES) batchEnds[THREAD] = endOfBatch(bundle, THREAD);                    \
+        for (uint k = THREAD; k < BATCHES; k += THREADS) batchEnds[k] = endOfBatch(bundle, k);   \
         BARRIER                                                                                  \
         uint from = firstPair(bundle);                                                           \
         uint end = endOfPairs(bundle);                                                           \

@@ -191,7 +191,7 @@ struct SphereStatistics {
 #define LAUNCH_ONE 4u
 #define LAUNCH_GROUPS 5u
 #define LAUNCH_OUTSIDE 6u
-#define LAUNCH_BUNDLES 7u       // a work group for each bundle of all colours
+#define LAUNCH_BUNDLES 7u       // a work group for each bundle of all colours (list_fit.comp needs an invocation)
 #define LAUNCH_COLOUR 8u        // a work group for each bundle of one colour of the largest level
 #define LAUNCH_LOST_SPHERES 9u  // this row and the next: only if a contact is remembered that the new lists lack
 #define LAUNCH_LOST_COLOUR 10u
@@ -210,9 +210,8 @@ struct SphereStatistics {
 // Words behind the last bundle, for the solver, which binds as many buffers as a kernel may.
 #define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float
 #define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
-// The threads of the work group of a bundle. Behind these words are contact sums for each thread
-// (shared/contact_sums.h).
-#define BUNDLE_THREADS 64u
+// Behind these words are rows of contact sums for each bundle and thread (shared/contact_sums.h).
+#define BUNDLE_THREADS 64u      // threads of the work group of a bundle
 #define SUM_WORDS 8u            // virial xx yy zz xy xz yz (J s), collisions, 0
 // Sums over the contacts with each surface (shared/surface_sums.h).
 #define SURFACE_SUM_COPIES 16u

@@ -96,6 +96,31 @@ TEST_F(DeviceTest, IndirectLaunchReadsItsCountFromABuffer) {
     EXPECT_EQ(contents(*values), expected);
 }
 
+// An indirect launch reads what the one before it has written to the arguments of both.
+TEST_F(DeviceTest, IndirectLaunchMayChangeItsArgumentsForTheNextOne) {
+    const auto next = kernel(R"(
+        layout(std430, binding = 0) buffer Values { uint values[]; };
+        layout(std430, binding = 1) buffer Arguments { uint arguments[]; };
+        void main() {
+            atomicAdd(values[phase], 1u);
+            if (self() == 0u) arguments[0] = gl_NumWorkGroups.x + 3u;
+        })");
+    const auto arguments = buffer(std::vector<std::uint32_t>{1, 1, 1, 64});
+    const auto values = buffer(20 * 4);
+    const std::array<Buffer*, 2> buffers{values.get(), arguments.get()};
+    Launch indirect;
+    indirect.kernel = next.get();
+    indirect.buffers = buffers;
+    indirect.arguments = arguments.get();
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t phase = 0; phase < 20; ++phase) {
+        indirect.phase = phase;
+        device_->launch(indirect);
+        expected.push_back(64 * (1 + 3 * phase));
+    }
+    EXPECT_EQ(contents(*values), expected);
+}
+
 TEST_F(DeviceTest, IndirectLaunchWithoutGroupsDoesNothing) {
     const auto work = kernel(R"(
         layout(std430, binding = 0) buffer Values { uint values[]; };

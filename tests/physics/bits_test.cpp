@@ -112,11 +112,12 @@ scene::Scene periodicMixture(scene::Model model, double ratio) {
 
 class Bits : public testing::TestWithParam<scene::Model> {};
 
-// Also of the figures that frames carry, and of the places of driven bodies.
+// Also of statistics, of the figures that frames carry, and of the places of driven bodies.
 void expectTheSameBits(const scene::Scene& scene, double seconds) {
     std::optional<std::uint64_t> expected;
     std::optional<std::vector<glm::vec4>> expectedFigures;
     std::optional<std::vector<double>> expectedPlaces;
+    std::optional<std::vector<double>> expectedSums;
     for (const char* const choice : {"software", "cpu:1x1", "cpu:2x4", "cpu:3x8", "cpu:8"}) {
         const auto device = compute::openDevice(choice).value();
         auto simulation = simulate(scene, *device);
@@ -129,6 +130,10 @@ void expectTheSameBits(const scene::Scene& scene, double seconds) {
         const std::uint64_t hash = sim::hashOf(simulation->snapshot());
         EXPECT_EQ(hash, expected.value_or(hash)) << choice;
         expected = hash;
+        const sim::Statistics now = simulation->statistics();
+        const std::vector<double> sums{now.overlapMean, now.elasticEnergy, now.impacts.count, now.impacts.approach};
+        EXPECT_EQ(sums, expectedSums.value_or(sums)) << choice;
+        expectedSums = sums;
         ASSERT_TRUE(simulation->pipeline().figures());
         const auto figures = simulation->pipeline().read<glm::vec4>(sim::figuresArray, simulation->count());
         EXPECT_EQ(figures, expectedFigures.value_or(figures)) << choice;

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::uint32_t maxGroupsX = 32768;          // GL allows at least 65535 in each direction
 constexpr std::uint32_t countInBuffer = 0xffffffff;  // `invocations` of an indirect launch
-constexpr std::size_t copyChunk = std::size_t{16} << 20U;
+constexpr std::size_t uploadChunk = std::size_t{4} << 20U;
+constexpr std::size_t downloadChunk = std::size_t{16} << 20U;
 
 const GlBuffer& glBuffer(const Buffer& buffer) {
     return static_cast<const GlBuffer&>(buffer);
@@ -85,24 +86,20 @@ Result<std::unique_ptr<Kernel>> GlDevice::createKernel(const SourceSet& sources,
     return GlKernel::create(context_, sources, file, defines);
 }
 
-// Copies through a staging buffer, too: NVIDIA's driver 580 loses a glNamedBufferSubData of 128 KiB or more that
-// follows a clear of the same buffer. The staging buffer keeps its content until the device has read it: a full one
-// waits.
+// Copies through a staging buffer: NVIDIA's driver 580 loses a glNamedBufferSubData of 128 KiB or more that follows a
+// clear of the same buffer. The staging buffer keeps its content until the device has read it: a full one waits.
 void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) {
     checkRange("upload", buffer, offset, bytes.size());
     heartbeat::beat("copying to the device");
     context_->use();
     context_->state().beforeCopy();
     while (!bytes.empty()) {
-        if (!uploads_.reserve(copyChunk)) {
+        if (!uploads_.reserve(uploadChunk)) {
             copiesFail_ = true;
             return;
         }
-        if (uploadsUsed_ == copyChunk) {
-            fences_.wait();
-            uploadsUsed_ = 0;
-        }
-        const std::size_t part = std::min(bytes.size(), copyChunk - uploadsUsed_);
+        if (uploadsUsed_ == uploadChunk) finish();
+        const std::size_t part = std::min(bytes.size(), uploadChunk - uploadsUsed_);
         std::memcpy(uploads_.data() + uploadsUsed_, bytes.data(), part);
         glCopyNamedBufferSubData(uploads_.id(), glBuffer(buffer).id(), static_cast<GLintptr>(uploadsUsed_),
                                  static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(part));
@@ -112,13 +109,13 @@ void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::b
     }
 }
 
-// Copies through a staging buffer: after a direct read, some drivers keep the buffer in host memory.
+// Copies through a staging buffer, too: after a direct read, some drivers keep the buffer in host memory.
 void GlDevice::download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) {
     checkRange("download", buffer, offset, bytes.size());
     context_->use();
     context_->state().beforeCopy();
     while (!bytes.empty()) {
-        const std::size_t part = std::min(bytes.size(), copyChunk);
+        const std::size_t part = std::min(bytes.size(), downloadChunk);
         if (!downloads_.reserve(part)) {
             copiesFail_ = true;
             std::memset(bytes.data(), 0, bytes.size());
@@ -126,7 +123,7 @@ void GlDevice::download(const Buffer& buffer, std::size_t offset, std::span<std:
         }
         glCopyNamedBufferSubData(glBuffer(buffer).id(), downloads_.id(), static_cast<GLintptr>(offset), 0,
                                  static_cast<GLsizeiptr>(part));
-        fences_.wait();
+        finish();
         std::memcpy(bytes.data(), downloads_.data(), part);
         offset += part;
         bytes = bytes.subspan(part);
@@ -145,12 +142,13 @@ void GlDevice::launch(const Launch& launch) {
     heartbeat::beat("launching a kernel");
     context_->use();
     auto& state = context_->state();
+    // First, because a launch may change its own arguments for the next one.
+    if (launch.arguments != nullptr) state.bindArguments(glBuffer(*launch.arguments).id());
     bindBuffers(state, kernel, launch);
     state.useProgram(kernel.program());
     if (launch.arguments != nullptr) {
         checkRange("launch arguments", *launch.arguments, launch.argumentsOffset, 16);
         kernel.setUniforms(launch.phase, countInBuffer);
-        state.bindArguments(glBuffer(*launch.arguments).id());
         glDispatchComputeIndirect(static_cast<GLintptr>(launch.argumentsOffset));
     } else {
         if (launch.count == 0) return;
@@ -185,15 +183,15 @@ std::vector<double> GlDevice::takeTimes() {
 void GlDevice::finish() {
     context_->use();
     fences_.wait();
+    uploadsUsed_ = 0;
 }
 
 Result<void> GlDevice::status() {
     if (const char* const cause = context_->resetCause())
         return fail(ErrorKind::DeviceLost, info_.renderer, fmt::format("the device was reset: {}", cause));
     if (copiesFail_)
-        return fail(
-            ErrorKind::Refused, info_.renderer,
-            fmt::format("the driver has no memory of the host for copies of {} MiB; free some", copyChunk >> 20U));
+        return fail(ErrorKind::DeviceLost, info_.renderer,
+                    "the driver has no host memory left for copies; start again");
     return {};
 }
 

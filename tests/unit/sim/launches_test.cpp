@@ -1,13 +1,16 @@
 // Each launch of a plan covers all invocations of its kernel, whether it has a fixed size or a row of the launch table.
+// A kernel of bundles has a work group for each of them on a GPU.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "compute/cpu/kernels.h"
 #include "scene_support.h"
 #include "sim/parameters.h"
 #include "sim/plan.h"
+#include "sim/shaders.h"
 
 namespace spherule::sim {
 namespace {
@@ -39,14 +42,19 @@ TEST(SimLaunches, CoverAllInvocationsOfTheirKernels) {
         EXPECT_GT(plan.grid.levels.size(), 1U) << "the launches of several levels";
         const layout::Parameters parameters = parametersFor(scene, plan, radii, 1e-3);
         std::vector<LaunchSpec> launches = plan.substep;
-        launches.insert(launches.end(), plan.newSubstep.begin(), plan.newSubstep.end());
-        launches.insert(launches.end(), plan.statistics.begin(), plan.statistics.end());
+        for (const auto* more : {&plan.newSubstep, &plan.statistics, &plan.stepEnd, &plan.figures})
+            launches.insert(launches.end(), more->begin(), more->end());
         for (const LaunchSpec& launch : launches) {
             const auto kernels = compute::cpu::floatKernels();
             const auto kernel = std::ranges::find(kernels, launch.kernel, &compute::cpu::Entry::name);
             ASSERT_NE(kernel, kernels.end()) << launch.kernel;
-            const std::uint32_t wanted = kernel->count(
-                {.slots = {}, .parameters = &parameters, .phase = launch.phase, .features = bitsOf(plan.features)});
+            const std::string_view text = shaders().find(launch.kernel).value();
+            const bool ofBundles = text.find("PAIR_KERNEL") != std::string_view::npos ||
+                                   text.find("BUNDLE_KERNEL") != std::string_view::npos;
+            const std::uint32_t wanted =
+                (ofBundles ? BUNDLE_THREADS : 1) *
+                kernel->count(
+                    {.slots = {}, .parameters = &parameters, .phase = launch.phase, .features = bitsOf(plan.features)});
             const std::uint32_t launched = launch.launchRow ? plan.dispatchSizes.at(*launch.launchRow) : launch.count;
             EXPECT_GT(wanted, 0U) << launch.kernel;
             EXPECT_GE(launched, wanted) << launch.kernel << " of " << model << ", phase " << launch.phase;
