@@ -23,8 +23,8 @@ class State {
     void forgetProgram(GLuint program);
 
     // Orders launches, so that each sees the writes of earlier launches. Kernels write no uniform block. The barrier of
-    // the arguments of indirect launches costs 1.8 us on an H100. It is issued before the next indirect launch, and only
-    // if a launch had their buffer at a slot, or if the buffer is another one.
+    // the arguments of indirect launches costs up to 1.8 us on an H100. It is issued before the next indirect launch,
+    // and only if a launch had their buffer at a slot, or if the buffer is another one.
     void afterLaunch();
     // Makes the writes of launches visible to copies, fills and uploads, which then wait until the launches are done.
     void beforeCopy();
