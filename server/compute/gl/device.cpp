@@ -68,9 +68,9 @@ Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, s
                                                        std::string_view /*words*/) {
     if (bytes > info_.maxBufferBytes) {
         return fail(ErrorKind::Refused, std::string(label),
-                    fmt::format("needs {} bytes, but a kernel of {} sees at most {} bytes of one buffer; use fewer "
-                                "spheres or another device",
-                                bytes, info_.renderer, info_.maxBufferBytes));
+                    fmt::format("needs {} bytes ({} MiB), but a kernel of {} sees at most {} bytes of one buffer; use "
+                                "fewer spheres or another device",
+                                bytes, bytes >> 20U, info_.renderer, info_.maxBufferBytes));
     }
     heartbeat::beat("making room on the device");
     return GlBuffer::create(context_, label, bytes);
