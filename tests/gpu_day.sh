@@ -9,8 +9,8 @@
 #       --limit SECONDS    ends each command after this time (default: 590)
 #
 # The bundle contains this script; on the host, run `DIR/gpu_day.sh run DIR OUT`. DIR must be writable: the programs are
-# packed, and are unpacked there. OUT receives at most 8 files; several runs append to them. The tests run at the same
-# time, the other commands one by one. If a command fails, the others still run, and the exit code is 1.
+# packed, and are unpacked there. OUT receives at most 8 files; several runs append to them. Tests of physics run at
+# the same time, all other commands one by one. If a command fails, the others still run, and the exit code is 1.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -49,7 +49,6 @@
 //   THREADS                     The number of threads of a work group; 1 in C++.
 //   FIRST_THREAD                True in one thread of the work group.
 //   SHARED(type, name)          Declares a variable of the work group.
-//   ADD_SHARED(word, value)     Adds to a uint of the work group, from any thread.
 //   BARRIER                     Waits for all threads, and shows each what the others have written to such variables.
 //   BUFFER_BARRIER              The same, and for buffers that are declared `coherent`.
 #ifndef __cplusplus
@@ -106,7 +105,6 @@ layout(location = 0) uniform uint phase;
 #define THREADS uint(LOCAL_SIZE)
 #define FIRST_THREAD (THREAD == 0u)
 #define SHARED(type, name) shared type name;
-#define ADD_SHARED(word, value) atomicAdd(word, value);
 #define BARRIER            \
     memoryBarrierShared(); \
     barrier();

@@ -250,7 +250,6 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define THREADS 1U
 #define FIRST_THREAD true
 #define SHARED(type, name) type name;
-#define ADD_SHARED(word, value) word = (word) + (value);
 #define BARRIER
 #define BUFFER_BARRIER
 #define BUNDLE_KERNEL(count) KERNEL(count)
