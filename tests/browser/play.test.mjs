@@ -67,6 +67,7 @@ async function playsBetween(low, high) {
   );
 }
 
+/** To pause, set a low speed first: at the end playback pauses by itself, and then the button starts it again. */
 async function setPaused(wanted) {
   if ((await page.evaluate(() => spherule.session.paused)) !== wanted) await page.click(control("pause"));
   await when(page, (paused) => spherule.session.paused === paused, wanted);
@@ -180,10 +181,12 @@ test("playback continues where the handle is released", async () => {
   await page.mouse.up();
   await playsBetween(0.1 * duration + 2 * frame, 0.8 * duration);
   assert.equal(await page.evaluate(() => spherule.session.paused), false);
+  await setPaused(true);
   await setSpeed(1);
 });
 
 test("pause, single frames and resume", async () => {
+  await setSpeed(0.1);
   await setPaused(true);
   await page.mouse.click(...(await placeOf(0.5)));
   await at(0.5 * duration);
@@ -196,6 +199,8 @@ test("pause, single frames and resume", async () => {
   await at(before + 11 * frame, 1e-6);
   await page.click(control("pause"));
   await when(page, (then) => spherule.session.newest.simTime > then, before + 12 * frame);
+  await setPaused(true);
+  await setSpeed(1);
 });
 
 test("reset goes to the beginning, by button and by key", async () => {

@@ -107,7 +107,7 @@ class Population(FolderTestCase):
             self.assertEqual(int(self.query(server)["removed"]), 1)
 
     def test_a_slow_follower_gets_the_facts_again(self):
-        rain = dict(BED, sinks=[{"region": {"min": [-1, -1, -1], "max": [1, 1, -0.9]}}])
+        rain = dict(BED, sinks=[{"region": {"min": [-1, -1, -1], "max": [0.3, 1, -0.9]}}])  # the others stay
         with self.serve(rain) as server:
             follower = Follower(server.port)
             follower.wait(lambda one: one.of("frame"))
