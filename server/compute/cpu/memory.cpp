@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include <sys/mman.h>
+
 #include <spdlog/fmt/fmt.h>
 
 #include "core/memory.h"
@@ -11,7 +13,8 @@
 namespace spherule::compute::cpu {
 namespace {
 
-constexpr std::size_t alignment = 64;
+constexpr std::size_t lineBytes = 64;
+constexpr std::size_t hugePageBytes = std::size_t{2} << 20U;
 constexpr std::size_t word = 4;
 
 }  // namespace
@@ -74,16 +77,21 @@ void Words::load(const std::byte* memory, std::size_t hostOffset, std::span<std:
 
 Result<std::unique_ptr<Buffer>> CpuBuffer::create(std::string_view label, std::size_t bytes, Words words) {
     const std::size_t size = words.bytesFor((bytes + word - 1) / word * word);
+    const bool large = size >= hugePageBytes;
     void* data = nullptr;
     // Linux grants more memory than there is, and kills a process that uses it. This check ignores promised memory,
     // because the maker of the plan already holds a claim for this buffer.
     const memory::Room room = memory::room();
-    if (size > room.left || posix_memalign(&data, alignment, std::max<std::size_t>(size, 1)) != 0) {
+    if (size > room.left ||
+        posix_memalign(&data, large ? hugePageBytes : lineBytes, std::max<std::size_t>(size, 1)) != 0) {
         return fail(ErrorKind::Refused, std::string(label),
                     fmt::format("needs {} of memory, of which at most {} are left for this program; use fewer spheres, "
                                 "or give it more",
                                 memory::sizeText(size), memory::sizeText(room.left)));
     }
+    // Kernels read few words at many places. With huge pages the processor finds them without a walk through its page
+    // table. The system may refuse, and then the pages are small.
+    if (large) madvise(data, size / hugePageBytes * hugePageBytes, MADV_HUGEPAGE);
     std::memset(data, 0, size);
     return std::unique_ptr<Buffer>(new CpuBuffer(bytes, std::move(words), static_cast<std::byte*>(data)));
 }
