@@ -10,9 +10,12 @@
 
 namespace spherule::sim {
 
+namespace layout {
+#include "shared/mesh_layout.h"
+}
+
 namespace {
 
-constexpr std::uint32_t mostTriangles = 16;
 constexpr double mostExtent = 0.5;  // of a cluster with several triangles: half its diagonal, over the reach
 
 struct Box {
@@ -53,7 +56,7 @@ MeshClusters MeshClusters::of(const scene::Mesh& mesh, double reach) {
             centres = centres.with({centreOf(boxes[t]), centreOf(boxes[t])});
         }
         const bool small = 0.5 * glm::distance(all.low, all.high) <= mostExtent * reach;
-        if (part.size() == 1 || (part.size() <= mostTriangles && small)) {
+        if (part.size() == 1 || (part.size() <= MOST_IN_CLUSTER && small)) {
             made.clusters.push_back({.first = first, .count = end - first, .low = all.low, .high = all.high});
             return;
         }

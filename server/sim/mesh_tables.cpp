@@ -10,6 +10,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include "scene/mesh/mesh.h"
 #include "scene/shapes.h"
@@ -188,16 +190,10 @@ class MeshWriter {
         for (const std::uint32_t word : mesh_.edgesOf[t]) words_.push_back(2 * addressOf(word / 2) + word % 2);
         for (const std::uint32_t corner : mesh_.corners[t])
             words_.push_back(owner_[corner] == t ? vertexAt_[corner] : 0);
-        const glm::dvec3 low = glm::min(mesh_.corner(t, 0), glm::min(mesh_.corner(t, 1), mesh_.corner(t, 2)));
-        const glm::dvec3 high = glm::max(mesh_.corner(t, 0), glm::max(mesh_.corner(t, 1), mesh_.corner(t, 2)));
-        const glm::dvec3 centre = 0.5 * (low + high);
-        double radius = 0;
-        for (unsigned k = 0; k < 3; ++k) radius = std::max(radius, glm::distance(centre, mesh_.corner(t, k)));
-        put(words_, centre);
-        put(words_, radius * 1.00001 + rounding());
+        nextLine();
     }
 
-    // Returns by how much balls and cylinders are larger than their content (m): coordinates are float32.
+    // Returns by how much the limits of clusters and triangles are wider than these (m): coordinates are float32.
     [[nodiscard]] double rounding() const { return 1e-6 * glm::length(mesh_.half); }
 
     void writeClusters(const MeshClusters& clusters, std::uint32_t trianglesAt) {
@@ -206,28 +202,57 @@ class MeshWriter {
             glm::dvec3 normal(0);
             for (const std::uint32_t t : triangles) normal += mesh_.normal(t);
             normal = glm::length(normal) > 0.1 ? glm::normalize(normal) : mesh_.normal(triangles[0]);
+            const glm::dvec3 least = glm::abs(normal);
+            const glm::dvec3 axis = least.x <= least.y && least.x <= least.z ? glm::dvec3(1, 0, 0)
+                                    : least.y <= least.z                     ? glm::dvec3(0, 1, 0)
+                                                                             : glm::dvec3(0, 0, 1);
+            const glm::dvec3 across = glm::normalize(glm::cross(axis, normal));
+            const glm::dmat3 intoCluster = glm::transpose(glm::dmat3(across, glm::cross(normal, across), normal));
             double low = std::numeric_limits<double>::max();
             double high = -low;
-            double radius = 0;
+            double extent = 0;
             double bend = 0;  // of patches: the largest distance of a corner from the plane
             for (const std::uint32_t t : triangles)
                 for (unsigned k = 0; k < 3; ++k) {
-                    const glm::dvec3& corner = mesh_.corner(t, k);
                     const scene::Mesh::Patch& patch = mesh_.patches[mesh_.patchOf[t]];
-                    bend = std::max(bend, std::abs(glm::dot(patch.normal, corner) - patch.offset));
-                    low = std::min(low, glm::dot(normal, corner));
-                    high = std::max(high, glm::dot(normal, corner));
-                    radius = std::max(radius, glm::length(glm::cross(normal, corner - one.centre())));
+                    bend = std::max(bend, std::abs(glm::dot(patch.normal, mesh_.corner(t, k)) - patch.offset));
+                    const glm::dvec3 corner = intoCluster * (mesh_.corner(t, k) - one.centre());
+                    low = std::min(low, corner.z);
+                    high = std::max(high, corner.z);
+                    extent = std::max({extent, std::abs(corner.x), std::abs(corner.y)});
                 }
+            const double steps = double{STEPS_TO_CENTRE} / (1.001 * extent + 2 * rounding());
+            const std::size_t begin = words_.size();
             put(words_, normal);
             put(words_, low - bend - rounding());
             put(words_, high + bend + rounding());
             put(words_, one.centre());
-            put(words_, radius * 1.00001 + rounding());
+            put(words_, across);
+            put(words_, steps);
             words_.push_back(trianglesAt + one.first * TRIANGLE_WORDS);
-            words_.push_back(trianglesAt + (one.first + one.count) * TRIANGLE_WORDS);
-            nextLine();
+            words_.push_back(one.count);
+            words_.resize(begin + CLUSTER_WORDS);
+            for (std::uint32_t k = 0; k < one.count; ++k)
+                words_[begin + CLUSTER_BOXES + k] = boxOf(triangles[k], intoCluster, one.centre(), steps);
         }
+    }
+
+    // Returns CLUSTER_BOXES of a triangle.
+    [[nodiscard]] std::uint32_t boxOf(std::uint32_t t, const glm::dmat3& intoCluster, const glm::dvec3& centre,
+                                      double steps) const {
+        glm::dvec3 low(std::numeric_limits<double>::max());
+        glm::dvec3 high = -low;
+        for (unsigned k = 0; k < 3; ++k) {
+            const glm::dvec3 corner = intoCluster * (mesh_.corner(t, k) - centre);
+            low = glm::min(low, corner);
+            high = glm::max(high, corner);
+        }
+        const auto step = [&](double place, double margin) {
+            const double exact = (place + margin) * steps + double{STEPS_TO_CENTRE};
+            return static_cast<std::uint32_t>(margin < 0 ? std::floor(exact) : std::ceil(exact));
+        };
+        return step(low.x, -rounding()) | step(high.x, rounding()) << 8U | step(low.y, -rounding()) << 16U |
+               step(high.y, rounding()) << 24U;
     }
 
     void writeCells(const MeshGrid& grid) {

@@ -39,6 +39,9 @@
 //   EACH_LANE_WITH(where, flag, function, at)  The same for a uintRow, in order, with the bool of a second mask.
 //   EACH_LANE_VECTORS(where, function, number, more, a, b)  Calls the function with the number, `more` and the vec3 of
 //                               each lane in `where`. `number`: uints. `more`: any value. `a`, `b`: real3.
+//   EACH_LANE_NUMBER(where, function, more)  Calls the function with the number of each lane in `where` among the lanes,
+//                               and `more`, any value.
+//   LANE_OF(value, lane)        The value of one lane of a real, a real3 or uints. Uints can be set.
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 //
@@ -95,6 +98,8 @@ layout(location = 0) uniform uint phase;
 #define LANE_KERNEL(count) KERNEL(count)
 #define EACH_LANE_WITH(where, flag, function, at) if (where) function(at, flag);
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) if (where) function(number, more, a, b);
+#define EACH_LANE_NUMBER(where, function, more) if (where) function(0u, more);
+#define LANE_OF(value, lane) value
 #define ROWS_UP_TO(first, end) (first)
 #define IN_ROWS(at) true
 #define LANES 1u

@@ -14,14 +14,20 @@
 // Clusters, triangles and edges fill whole lines of a cache.
 #define LINE_WORDS 16u
 
-// `clustersAt` is the address of the clusters (sim/mesh_clusters.h). A cluster is in a short cylinder.
-#define CLUSTER_WORDS LINE_WORDS
-#define CLUSTER_NORMAL 0u     // of unit length: the direction of its axis
-#define CLUSTER_LOW 3u        // m: its two ends, along the normal
+// `clustersAt` is the address of the clusters (sim/mesh_clusters.h). A cluster is between two planes. Across their normal,
+// a box of its own is around each of its triangles. The boxes are on a grid of 255 by 255 steps around the centre.
+#define CLUSTER_WORDS (2u * LINE_WORDS)
+#define CLUSTER_NORMAL 0u     // of unit length
+#define CLUSTER_LOW 3u        // m: the two planes, from the centre along the normal
 #define CLUSTER_HIGH 4u
-#define CLUSTER_CENTRE 5u     // m: a point on its axis
-#define CLUSTER_RADIUS 8u     // m
-#define CLUSTER_TRIANGLES 9u  // address of the first triangle, and behind the last one
+#define CLUSTER_CENTRE 5u     // m
+#define CLUSTER_ACROSS 8u     // u, of unit length, across the normal; v is the normal times u
+#define CLUSTER_STEPS 11u     // per metre
+#define CLUSTER_TRIANGLES 12u // address of the first triangle
+#define CLUSTER_COUNT 13u     // of triangles, at most MOST_IN_CLUSTER
+#define CLUSTER_BOXES LINE_WORDS  // of each triangle, in steps, a byte each: lowest u, highest u, lowest v, highest v
+#define MOST_IN_CLUSTER 16u
+#define STEPS_TO_CENTRE 127.5f
 
 #define TRIANGLE_WORDS LINE_WORDS
 #define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
@@ -31,7 +37,6 @@
 #define TRIANGLE_TURNED 2u    // this times 1 << k: its edge k is stored from its corner k + 1 to its corner k
 #define TRIANGLE_EDGES 6u     // three: twice the address of an edge, plus 1 if the triangle is its second
 #define TRIANGLE_VERTICES 9u  // three: the address of a vertex that it owns and that spheres may touch, else 0
-#define TRIANGLE_CENTRE 12u   // of a ball around it (m), then the radius of the ball (m)
 
 #define EDGE_WORDS LINE_WORDS
 #define EDGE_FROM 0u    // m: its first end

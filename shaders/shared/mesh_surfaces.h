@@ -16,10 +16,19 @@
 #define GROOVE_LENGTH 0.75f  // radii from the edge, across it
 #define GROOVE_SPREAD 0.25f  // of that, beyond the ends of the edge
 
+// What is left out for certain is left out before it is tested exactly. Those tests reach this many times as far, because
+// numbers are rounded.
+#define REACH_MORE 1.001f
+
 PRIVATE(real3, meshPoint)      // the centre of the sphere in the frame of the mesh when the visit began (m)
 PRIVATE(real3, meshStart)      // the same at the start of the substep
 PRIVATE(real3, meshVelocity)   // of the sphere relative to the mesh (m/s); 0 without look ahead
 PRIVATE(real, meshReach)       // the sphere may touch what is within this distance of its centre (m)
+PRIVATE(uints, clusterPlace)   // where the number of the next cluster is
+PRIVATE(uints, listsBehind)    // 1 if another list follows the present one
+PRIVATE(uints, trianglesAt)    // address of the first triangle of the present cluster
+PRIVATE(uints, trianglesLeft)  // bit k: the sphere visits triangle k of the cluster later
+PRIVATE(uints, nearTriangle)   // address of the triangle that the sphere visits next, or END_OF_LIST
 PRIVATE(uints, lastPatch)      // keys of the last two patches that the sphere met
 PRIVATE(uints, patchBefore)
 PRIVATE(real, nearestOutside)  // m: the nearest feature on whose free side the centre is
@@ -74,9 +83,10 @@ void findSides(mask within, uint triangle, real above) {
     lastPatch = select(where, uints(key), lastPatch);
 }
 
-// Returns the radius of the disc in which spheres reach a plane (m). `above`: the height of the centre (m).
+// Returns the radius of a disc (m): spheres reach no other part of a plane. `above`: the height of the centre (m).
 real discInPlane(real above) {
-    return sqrt(max((meshReach - above) * (meshReach + above), real(0.0f)));
+    real reach = meshReach * REACH_MORE;
+    return sqrt(max((reach - above) * (reach + above), real(0.0f)));
 }
 
 // Finds the spheres that are near a triangle, and those that are above or below it.
@@ -87,10 +97,6 @@ void findNear(mask where, uint triangle) {
     besideLanes = noLane();
     if (!anyLane(closeLanes)) return;
     real disc = discInPlane(above);
-    real room = (disc + meshReal(triangle + TRIANGLE_CENTRE + 3u)) * 1.01f;
-    real3 fromCentre = meshPoint - real3(meshVector(triangle + TRIANGLE_CENTRE));
-    closeLanes = closeLanes && dot3(fromCentre, fromCentre) <= above * above + room * room;
-    if (!anyLane(closeLanes)) return;
     mask inGroove = noLane();
     mask inGrooveBehind = noLane();
     for (uint k = 0u; k < 3u; ++k) {
@@ -99,7 +105,7 @@ void findNear(mask where, uint triangle) {
         real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
         real beyond = dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u * (word % 2u))));
         // In `accurate`, the sphere reaches as far as a groove is long.
-        if (!HAS(ACCURATE)) closeLanes = closeLanes && beyond <= disc * 1.01f;
+        if (!HAS(ACCURATE)) closeLanes = closeLanes && beyond <= disc;
         mask outside = closeLanes && beyond > 0.0f;
         besideLanes = besideLanes || outside;
         uint flags = obstacleLists[edge + EDGE_FLAGS];
@@ -209,15 +215,63 @@ void visitTriangle(mask where, Obstacle mesh, uint triangle, bool leaves) {
     }
 }
 
-// Returns the spheres that may touch a triangle of a cluster.
-mask nearCluster(mask where, uint cluster) {
-    real3 normal = real3(meshVector(cluster + CLUSTER_NORMAL));
-    real3 fromCentre = meshPoint - real3(meshVector(cluster + CLUSTER_CENTRE));
-    real height = dot3(meshPoint, normal);
-    real gap = max(max(meshReal(cluster + CLUSTER_LOW) - height, height - meshReal(cluster + CLUSTER_HIGH)), real(0.0f));
-    real along = dot3(fromCentre, normal);
-    real room = (discInPlane(gap) + meshReal(cluster + CLUSTER_RADIUS)) * 1.01f;
-    return where && gap <= meshReach && dot3(fromCentre, fromCentre) <= along * along + room * room;
+// Returns the triangles of a cluster that a sphere may reach, and some that it does not: bit k for triangle k.
+uint trianglesNear(uint cluster, vec3 point, float reach) {
+    vec3 normal = meshVector(cluster + CLUSTER_NORMAL);
+    vec3 across = meshVector(cluster + CLUSTER_ACROSS);
+    vec3 d = point - meshVector(cluster + CLUSTER_CENTRE);
+    float height = dot3(d, normal);
+    float gap = max(max(meshReal(cluster + CLUSTER_LOW) - height, height - meshReal(cluster + CLUSTER_HIGH)), 0.0f);
+    if (!(gap < reach)) return 0u;
+    float steps = meshReal(cluster + CLUSTER_STEPS);
+    float room = sqrt((reach - gap) * (reach + gap)) * REACH_MORE * steps;
+    float u = dot3(d, across) * steps + STEPS_TO_CENTRE;
+    float v = dot3(d, cross3(normal, across)) * steps + STEPS_TO_CENTRE;
+    if (abs(u - STEPS_TO_CENTRE) > STEPS_TO_CENTRE + room || abs(v - STEPS_TO_CENTRE) > STEPS_TO_CENTRE + room)
+        return 0u;
+    uint near = 0u;
+    for (uint k = 0u; k < obstacleLists[cluster + CLUSTER_COUNT]; ++k) {
+        uint box = obstacleLists[cluster + CLUSTER_BOXES + k];
+        bool isNear = u + room > float(box & 255u) && u - room < float((box >> 8u) & 255u) &&
+                      v + room > float((box >> 16u) & 255u) && v - room < float(box >> 24u);
+        near = near | (isNear ? 1u << k : 0u);
+    }
+    return near;
+}
+
+// Finds the next triangle that the sphere of a lane visits. Each sphere has its own way through the lists: where
+// triangles are small, spheres beside each other share few of them.
+void findNextTriangle(uint lane, Obstacle mesh) {
+    vec3 point = LANE_OF(meshPoint, lane);
+    float reach = LANE_OF(meshReach, lane) * REACH_MORE;
+    uint place = LANE_OF(clusterPlace, lane);
+    uint left = LANE_OF(trianglesLeft, lane);
+    while (left == 0u) {
+        uint number = obstacleLists[place];
+        place += 1u;
+        if (number == END_OF_LIST) {
+            if (LANE_OF(listsBehind, lane) == 0u) break;
+            LANE_OF(listsBehind, lane) = 0u;
+            continue;
+        }
+        uint cluster = mesh.clustersAt + number * CLUSTER_WORDS;
+        left = trianglesNear(cluster, point, reach);
+        LANE_OF(trianglesAt, lane) = obstacleLists[cluster + CLUSTER_TRIANGLES];
+        for (uint more = left; more != 0u; more &= more - 1u) {
+            PREFETCH(obstacleLists[LANE_OF(trianglesAt, lane) + uint(findLSB(more)) * TRIANGLE_WORDS])
+        }
+    }
+    LANE_OF(clusterPlace, lane) = place;
+    if (left == 0u) {
+        LANE_OF(nearTriangle, lane) = END_OF_LIST;
+        return;
+    }
+    uint triangle = LANE_OF(trianglesAt, lane) + uint(findLSB(left)) * TRIANGLE_WORDS;
+    LANE_OF(trianglesLeft, lane) = left & (left - 1u);
+    LANE_OF(nearTriangle, lane) = triangle;
+    for (uint k = 0u; k < 3u; ++k) {
+        PREFETCH(obstacleLists[obstacleLists[triangle + TRIANGLE_EDGES + k] / 2u])
+    }
 }
 
 // Returns the lists near the cells in which the centres are; the empty list for others.
@@ -244,46 +298,29 @@ void visitMesh(mask where, Obstacle mesh) {
     wayOut = uints(END_OF_LIST);
     nearestOutside = real(FAR_AWAY);
     nearestInside = real(-FAR_AWAY);
-    uints place = clustersNear(where, mesh);
-    uints number = ROW(obstacleLists, place);
-    mask hasMore = place != NO_OBSTACLES && meshReach > NEAR_SHARE * mesh.b.w;  // clusters beyond the first list
+    clusterPlace = clustersNear(where, mesh);
+    mask listed = clusterPlace != NO_OBSTACLES;
+    listsBehind = select(listed && meshReach > NEAR_SHARE * mesh.b.w, uints(1u), uints(0u));
+    trianglesLeft = uints(0u);
+    nearTriangle = uints(END_OF_LIST);
+    EACH_LANE_NUMBER(listed, findNextTriangle, mesh)
     bool leaves = false;
-    mask here = noLane();
-    uint triangle = 0u;  // address
-    uint end = 0u;       // behind the last triangle of the cluster
     while (true) {
-        if (triangle == end) {
-            uint least = leastOf(number);
-            if (least == END_OF_LIST && anyLane(hasMore)) {
-                place = select(hasMore, place + 1u, place);
-                number = ROW(obstacleLists, place);
-                hasMore = noLane();
-                continue;
-            }
-            if (least == END_OF_LIST && !leaves) {
-                // At the end, centres in the solid leave it through the nearest face.
-                leaves = true;
-                wayOut = select(-nearestInside < nearestOutside, wayOut, uints(END_OF_LIST));
-            }
-            if (leaves) {
-                triangle = leastOf(wayOut);
-                if (triangle == END_OF_LIST) break;
-                end = triangle + TRIANGLE_WORDS;
-                here = wayOut == triangle;
-                wayOut = select(here, uints(END_OF_LIST), wayOut);
-            } else {
-                here = number == least;
-                place = select(here, place + 1u, place);
-                number = ROW(obstacleLists, place);
-                uint cluster = mesh.clustersAt + least * CLUSTER_WORDS;
-                here = nearCluster(here, cluster);
-                if (!anyLane(here)) continue;
-                triangle = obstacleLists[cluster + CLUSTER_TRIANGLES];
-                end = obstacleLists[cluster + CLUSTER_TRIANGLES + 1u];
-            }
+        uint triangle = leastOf(nearTriangle);
+        if (triangle == END_OF_LIST) {
+            if (leaves) break;
+            // At the end, centres in the solid leave it through the nearest face.
+            leaves = true;
+            nearTriangle = select(-nearestInside < nearestOutside, wayOut, uints(END_OF_LIST));
+            continue;
         }
+        mask here = nearTriangle == triangle;
         visitTriangle(here, mesh, triangle, leaves);
-        triangle += TRIANGLE_WORDS;
+        if (leaves) {
+            nearTriangle = select(here, uints(END_OF_LIST), nearTriangle);
+        } else {
+            EACH_LANE_NUMBER(here, findNextTriangle, mesh)
+        }
     }
     if (HAS(ACCURATE)) visitGathered(mesh);
 }

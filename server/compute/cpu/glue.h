@@ -288,6 +288,8 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     callForLanes(where, flag, at, [this](uint number, bool flagged) { function(number, flagged); });
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) \
     callForLanes(where, number, a, b, [&](uint ofLane, const vec3& x, const vec3& y) { function(ofLane, more, x, y); });
+#define EACH_LANE_NUMBER(where, function, more) callForLanes(where, [&](uint lane) { function(lane, more); });
+#define LANE_OF(value, lane) laneOf(value, lane)
 #define ROWS_UP_TO(first, end)             \
     uintRow {                              \
         first, min((end) - (first), lanes) \
@@ -332,6 +334,9 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     if (where) function(at, flag);
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) \
     if (where) function(number, more, a, b);
+#define EACH_LANE_NUMBER(where, function, more) \
+    if (where) function(0, more);
+#define LANE_OF(value, lane) (value)
 #define ROWS_UP_TO(first, end) (first)
 #define IN_ROWS(at) true
 #define LANES 1U

@@ -346,6 +346,23 @@ SPHERULE_INLINE float largestOf(mask where, real value) {
     return largest;
 }
 
+// The value of one lane.
+SPHERULE_INLINE float laneOf(const real& value, std::uint32_t lane) {
+    return value.v[lane];
+}
+SPHERULE_INLINE vec3 laneOf(const real3& value, std::uint32_t lane) {
+    return {value.x.v[lane], value.y.v[lane], value.z.v[lane]};
+}
+SPHERULE_INLINE std::uint32_t& laneOf(uints& value, std::uint32_t lane) {
+    return value.v[lane];
+}
+
+// Calls function(lane) for each lane in `where`, in order.
+template <class Function>
+SPHERULE_INLINE void callForLanes(mask where, Function function) {
+    for (std::uint32_t bits = bitsOf(where); bits != 0; bits &= bits - 1)
+        function(static_cast<std::uint32_t>(__builtin_ctz(bits)));
+}
 // Calls function(number, flag) for each lane in `where`, in order.
 template <class Function>
 SPHERULE_INLINE void callForLanes(mask where, mask flags, uintRow at, Function function) {

@@ -12,6 +12,7 @@
 #include "kernels_support.h"
 #include "mesh_triangles.h"
 #include "scene/mesh/mesh.h"
+#include "scene/mesh/triangle_tree.h"
 #include "scene/shapes.h"
 #include "sim/mesh_tables.h"
 #include "sim/obstacle_rows.h"
@@ -129,6 +130,73 @@ TEST(KernelsAsCpp, FindTheNearestTriangleOfAMesh) {
         }
         EXPECT_LT(worst, 1e-6) << name;
         EXPECT_GT(near, count / 100) << name;
+    }
+}
+
+// Returns how many local minima the distance from `point` to the mesh has that are below `reach` (m). A point of the
+// mesh is one if it is the nearest point of all triangles that contain it. `exact`: false if rounding could change the
+// number.
+unsigned minimaOf(const Mesh& mesh, const dvec3& point, double reach, bool& exact) {
+    constexpr double same = 1e-9;
+    struct Near {
+        std::uint32_t triangle;
+        dvec3 place;
+    };
+    const auto nearestIn = [&](std::uint32_t t, const dvec3& of) {
+        return scene::nearestOn(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), of);
+    };
+    std::vector<Near> all;
+    for (std::uint32_t t = 0; t < mesh.corners.size(); ++t) {
+        const dvec3 place = nearestIn(t, point);
+        if (glm::distance(place, point) < 1.001 * reach) all.push_back({t, place});
+    }
+    std::vector<dvec3> minima;
+    for (const Near& one : all) {
+        const bool isMinimum = std::ranges::all_of(all, [&](const Near& other) {
+            return glm::distance(one.place, other.place) < same ||
+                   glm::distance(one.place, nearestIn(other.triangle, one.place)) > same;
+        });
+        if (!isMinimum ||
+            std::ranges::any_of(minima, [&](const dvec3& m) { return glm::distance(m, one.place) < same; }))
+            continue;
+        if (std::abs(glm::distance(one.place, point) - reach) < 1e-5 * reach) exact = false;
+        if (glm::distance(one.place, point) < reach) minima.push_back(one.place);
+    }
+    return static_cast<unsigned>(minima.size());
+}
+
+// Where triangles are small for a sphere, it touches the mesh at several places at once. None of them is left out.
+TEST(KernelsAsCpp, TouchAMeshAtEveryMinimumOfTheDistance) {
+    constexpr double radius = 0.1;
+    constexpr std::size_t spheres = 6'000;
+    constexpr double touches = 2e-4;  // in radii: contacts that do not quite touch count too
+    for (const double bump : {0.02, 0.2}) {
+        const auto shape = scene::meshShape(support::bumpyBall(0.5, bump, 4), Mesh::Form::Solid);
+        std::vector<vec4> places = placesIn(dvec3(0.8), 11);
+        std::erase_if(places, [&](const vec4& place) {
+            const double distance = shape->distance(dvec3(glm::vec3(place)));
+            return distance < 0 || distance > radius;
+        });
+        ASSERT_GT(places.size(), spheres);
+        places.resize(spheres);
+        Around around(shape, places, radius);
+        around.run("figures_surfaces");
+        unsigned wrong = 0;
+        unsigned compared = 0;
+        unsigned contacts = 0;
+        const Mesh& mesh = *shape->mesh();
+        for (std::size_t k = 0; k < spheres; ++k) {
+            bool exact = true;
+            const dvec3 point = dvec3(glm::vec3(places[k])) - mesh.centre;
+            const unsigned minima = minimaOf(mesh, point, radius * (1 + touches), exact);
+            if (!exact) continue;
+            ++compared;
+            contacts += minima;
+            if (around.touching[k] != minima) ++wrong;
+        }
+        EXPECT_LE(wrong, 1U) << bump << ": of " << compared << " spheres with " << contacts << " contacts";
+        EXPECT_GT(compared, spheres * 9 / 10) << bump;
+        EXPECT_GT(contacts, compared) << bump;
     }
 }
 
