@@ -182,6 +182,11 @@ class MeshWriter {
         const scene::Mesh::Patch& patch = mesh_.patches[mesh_.patchOf[t]];
         put(words_, patch.normal);
         put(words_, patch.offset);
+        for (unsigned k = 0; k < 3; ++k) {
+            const glm::dvec3 away = awayFrom(t, mesh_.edgesOf[t][k] / 2);
+            put(words_, away);
+            put(words_, glm::dot(away, mesh_.corner(t, k)));
+        }
         words_.push_back(keyOf(t));
         std::uint32_t flags = mesh_.closed() ? TRIANGLE_CLOSED : 0;
         for (unsigned k = 0; k < 3; ++k)

@@ -9,7 +9,7 @@
 // is numbers of clusters in ascending order, then END_OF_LIST. A cell without clusters has EMPTY_CELL, and bits of a
 // distance (m): no point of the cell is nearer to the mesh.
 #define EMPTY_CELL 0x80000000u
-#define NEAR_SHARE 0.72f
+#define NEAR_SHARE 0.63f
 
 // Clusters, triangles and edges fill whole lines of a cache.
 #define LINE_WORDS 16u
@@ -29,14 +29,15 @@
 #define MOST_IN_CLUSTER 16u
 #define STEPS_TO_CENTRE 127.5f
 
-#define TRIANGLE_WORDS LINE_WORDS
+#define TRIANGLE_WORDS (2u * LINE_WORDS)
 #define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
-#define TRIANGLE_KEY 4u       // of a contact with the patch
-#define TRIANGLE_FLAGS 5u
+#define TRIANGLE_SIDES 4u     // three planes across it, through its edges: the direction out of it, then the offset (m)
+#define TRIANGLE_KEY 16u      // of a contact with the patch
+#define TRIANGLE_FLAGS 17u
 #define TRIANGLE_CLOSED 1u    // the triangle belongs to a solid
 #define TRIANGLE_TURNED 2u    // this times 1 << k: its edge k is stored from its corner k + 1 to its corner k
-#define TRIANGLE_EDGES 6u     // three: twice the address of an edge, plus 1 if the triangle is its second
-#define TRIANGLE_VERTICES 9u  // three: the address of a vertex that it owns and that spheres may touch, else 0
+#define TRIANGLE_EDGES 18u    // three: twice the address of an edge, plus 1 if the triangle is its second
+#define TRIANGLE_VERTICES 21u // three: the address of a vertex that it owns and that spheres may touch, else 0
 
 #define EDGE_WORDS LINE_WORDS
 #define EDGE_FROM 0u    // m: its first end

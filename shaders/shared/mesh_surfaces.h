@@ -16,14 +16,14 @@
 #define GROOVE_LENGTH 0.75f  // radii from the edge, across it
 #define GROOVE_SPREAD 0.25f  // of that, beyond the ends of the edge
 
-// What is left out for certain is left out before it is tested exactly. Those tests reach this many times as far, because
-// numbers are rounded.
+// The tests that come before the exact ones reach this many times as far, because numbers are rounded.
 #define REACH_MORE 1.001f
 
 PRIVATE(real3, meshPoint)      // the centre of the sphere in the frame of the mesh when the visit began (m)
 PRIVATE(real3, meshStart)      // the same at the start of the substep
 PRIVATE(real3, meshVelocity)   // of the sphere relative to the mesh (m/s); 0 without look ahead
 PRIVATE(real, meshReach)       // the sphere may touch what is within this distance of its centre (m)
+PRIVATE(float, meshRounding)   // larger than rounding errors of places (m)
 PRIVATE(uints, clusterPlace)   // where the number of the next cluster is
 PRIVATE(uints, listsBehind)    // 1 if another list follows the present one
 PRIVATE(uints, trianglesAt)    // address of the first triangle of the present cluster
@@ -46,6 +46,12 @@ float meshReal(uint at) {
 
 vec3 meshVector(uint at) {
     return vec3(meshReal(at), meshReal(at + 1u), meshReal(at + 2u));
+}
+
+// Returns the height above a plane (m). `plane`: the address of its normal and offset.
+ANY_REAL heightAbove(uint plane, ANY_REAL3 point) {
+    return point.x * meshReal(plane) + point.y * meshReal(plane + 1u) + point.z * meshReal(plane + 2u) -
+           meshReal(plane + 3u);
 }
 
 // Visits the feature that is in `featurePlace` and `featureAlong`.
@@ -99,7 +105,12 @@ void findNear(mask where, uint triangle) {
     real disc = discInPlane(above);
     mask inGroove = noLane();
     mask inGrooveBehind = noLane();
-    for (uint k = 0u; k < 3u; ++k) {
+    // Only near an edge or beyond it, the place is compared with the edge itself.
+    mask inside = closeLanes;
+    for (uint k = 0u; k < 3u; ++k)
+        inside = inside && heightAbove(triangle + TRIANGLE_SIDES + 4u * k, meshPoint) < -meshRounding;
+    bool allInside = !anyLane(closeLanes && !inside);
+    for (uint k = 0u; k < 3u && !allInside; ++k) {
         uint word = obstacleLists[triangle + TRIANGLE_EDGES + k];
         uint edge = word / 2u;
         real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
@@ -129,10 +140,11 @@ void findNear(mask where, uint triangle) {
 
 // Returns the spheres that may touch an edge of a triangle, if it is the first triangle of the edge.
 mask atEdge(uint triangle, uint k) {
+    if (!anyLane(besideLanes)) return noLane();
     uint word = obstacleLists[triangle + TRIANGLE_EDGES + k];
     uint edge = word / 2u;
     uint flags = obstacleLists[edge + EDGE_FLAGS];
-    if (word % 2u != 0u || (flags & EDGE_MEETS) == 0u || !anyLane(besideLanes)) return noLane();
+    if (word % 2u != 0u || (flags & EDGE_MEETS) == 0u) return noLane();
     vec3 direction = meshVector(edge + EDGE_ALONG);
     real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
     real along = dot3(d, real3(direction));
@@ -157,6 +169,7 @@ mask beyondEnd(uint edge, bool second) {
 
 // Returns the spheres that may touch a vertex of a triangle, if the vertex belongs to the triangle.
 mask atVertex(uint triangle, uint k) {
+    if (!anyLane(besideLanes)) return noLane();
     uint vertex = obstacleLists[triangle + TRIANGLE_VERTICES + k];
     if (vertex == 0u) return noLane();
     // First, by the edges of the triangle, because they have just been read.
@@ -239,14 +252,42 @@ uint trianglesNear(uint cluster, vec3 point, float reach) {
     return near;
 }
 
+bool mayReachTriangle(uint triangle, vec3 point, float reach) {
+    float above = max(abs(heightAbove(triangle + TRIANGLE_NORMAL, point)) - meshRounding, 0.0f);
+    if (!(above < reach)) return false;
+    float room = sqrt((reach - above) * (reach + above)) + meshRounding;
+    return heightAbove(triangle + TRIANGLE_SIDES, point) < room &&
+           heightAbove(triangle + TRIANGLE_SIDES + 4u, point) < room &&
+           heightAbove(triangle + TRIANGLE_SIDES + 8u, point) < room;
+}
+
+// Prefetches the clusters of a lane.
+void expectClusters(uint lane, Obstacle mesh) {
+    for (uint place = LANE_OF(clusterPlace, lane); obstacleLists[place] != END_OF_LIST; ++place) {
+        PREFETCH(obstacleLists[mesh.clustersAt + obstacleLists[place] * CLUSTER_WORDS])
+    }
+}
+
 // Finds the next triangle that the sphere of a lane visits. Each sphere has its own way through the lists: where
 // triangles are small, spheres beside each other share few of them.
 void findNextTriangle(uint lane, Obstacle mesh) {
     vec3 point = LANE_OF(meshPoint, lane);
     float reach = LANE_OF(meshReach, lane) * REACH_MORE;
     uint place = LANE_OF(clusterPlace, lane);
+    uint first = LANE_OF(trianglesAt, lane);
     uint left = LANE_OF(trianglesLeft, lane);
-    while (left == 0u) {
+    uint triangle = END_OF_LIST;
+    while (triangle == END_OF_LIST) {
+        if (left != 0u) {
+            uint next = first + uint(findLSB(left)) * TRIANGLE_WORDS;
+            left = left & (left - 1u);
+            if (!mayReachTriangle(next, point, reach)) continue;
+            triangle = next;
+            for (uint k = 0u; k < 3u; ++k) {
+                PREFETCH(obstacleLists[obstacleLists[triangle + TRIANGLE_EDGES + k] / 2u])
+            }
+            continue;
+        }
         uint number = obstacleLists[place];
         place += 1u;
         if (number == END_OF_LIST) {
@@ -256,22 +297,16 @@ void findNextTriangle(uint lane, Obstacle mesh) {
         }
         uint cluster = mesh.clustersAt + number * CLUSTER_WORDS;
         left = trianglesNear(cluster, point, reach);
-        LANE_OF(trianglesAt, lane) = obstacleLists[cluster + CLUSTER_TRIANGLES];
+        first = obstacleLists[cluster + CLUSTER_TRIANGLES];
         for (uint more = left; more != 0u; more &= more - 1u) {
-            PREFETCH(obstacleLists[LANE_OF(trianglesAt, lane) + uint(findLSB(more)) * TRIANGLE_WORDS])
+            PREFETCH(obstacleLists[first + uint(findLSB(more)) * TRIANGLE_WORDS])
+            PREFETCH(obstacleLists[first + uint(findLSB(more)) * TRIANGLE_WORDS + LINE_WORDS])
         }
     }
     LANE_OF(clusterPlace, lane) = place;
-    if (left == 0u) {
-        LANE_OF(nearTriangle, lane) = END_OF_LIST;
-        return;
-    }
-    uint triangle = LANE_OF(trianglesAt, lane) + uint(findLSB(left)) * TRIANGLE_WORDS;
-    LANE_OF(trianglesLeft, lane) = left & (left - 1u);
+    LANE_OF(trianglesAt, lane) = first;
+    LANE_OF(trianglesLeft, lane) = left;
     LANE_OF(nearTriangle, lane) = triangle;
-    for (uint k = 0u; k < 3u; ++k) {
-        PREFETCH(obstacleLists[obstacleLists[triangle + TRIANGLE_EDGES + k] / 2u])
-    }
 }
 
 // Returns the lists near the cells in which the centres are; the empty list for others.
@@ -293,6 +328,7 @@ void visitMesh(mask where, Obstacle mesh) {
     if (HAS(FAST)) meshStart = intoFrame(mesh, spherePoint - meshVelocity * real(params.substep));
     meshReach = sphereRadius * (1.0f + TOUCHES) + sqrt(dot3(meshVelocity, meshVelocity)) * params.substep;
     if (HAS(ACCURATE)) meshReach = sphereRadius * sqrt(1.0f + GROOVE_LENGTH * GROOVE_LENGTH);
+    meshRounding = (mesh.b.x + mesh.b.y + mesh.b.z) / mesh.a.w * 1.0e-6f;
     lastPatch = uints(END_OF_LIST);
     patchBefore = uints(END_OF_LIST);
     wayOut = uints(END_OF_LIST);
@@ -303,6 +339,9 @@ void visitMesh(mask where, Obstacle mesh) {
     listsBehind = select(listed && meshReach > NEAR_SHARE * mesh.b.w, uints(1u), uints(0u));
     trianglesLeft = uints(0u);
     nearTriangle = uints(END_OF_LIST);
+    if (LANES > 1u) {
+        EACH_LANE_NUMBER(listed, expectClusters, mesh)
+    }
     EACH_LANE_NUMBER(listed, findNextTriangle, mesh)
     bool leaves = false;
     while (true) {
