@@ -183,9 +183,12 @@ class MeshWriter {
         put(words_, patch.normal);
         put(words_, patch.offset);
         for (unsigned k = 0; k < 3; ++k) {
+            // A needle may be folded back onto the patch that it joined. Then its third corner is outside.
             const glm::dvec3 away = awayFrom(t, mesh_.edgesOf[t][k] / 2);
-            put(words_, away);
-            put(words_, glm::dot(away, mesh_.corner(t, k)));
+            const double third = glm::dot(away, mesh_.corner(t, (k + 2) % 3) - mesh_.corner(t, k));
+            const bool folded = !(third < -rounding());
+            put(words_, folded ? glm::dvec3(0) : away);
+            put(words_, folded ? 0 : glm::dot(away, mesh_.corner(t, k)));
         }
         words_.push_back(keyOf(t));
         std::uint32_t flags = mesh_.closed() ? TRIANGLE_CLOSED : 0;
@@ -198,7 +201,7 @@ class MeshWriter {
         nextLine();
     }
 
-    // Returns by how much the limits of clusters and triangles are wider than these (m): coordinates are float32.
+    // Returns by how much planes and boxes of clusters are wider than their content (m): coordinates are float32.
     [[nodiscard]] double rounding() const { return 1e-6 * glm::length(mesh_.half); }
 
     void writeClusters(const MeshClusters& clusters, std::uint32_t trianglesAt) {
@@ -226,11 +229,12 @@ class MeshWriter {
                     high = std::max(high, corner.z);
                     extent = std::max({extent, std::abs(corner.x), std::abs(corner.y)});
                 }
-            const double steps = double{STEPS_TO_CENTRE} / (1.001 * extent + 2 * rounding());
+            const double margin = bend + rounding();
+            const double steps = double{STEPS_TO_CENTRE} / (1.001 * extent + 2 * margin);
             const std::size_t begin = words_.size();
             put(words_, normal);
-            put(words_, low - bend - rounding());
-            put(words_, high + bend + rounding());
+            put(words_, low - margin);
+            put(words_, high + margin);
             put(words_, one.centre());
             put(words_, across);
             put(words_, steps);
@@ -238,13 +242,13 @@ class MeshWriter {
             words_.push_back(one.count);
             words_.resize(begin + CLUSTER_WORDS);
             for (std::uint32_t k = 0; k < one.count; ++k)
-                words_[begin + CLUSTER_BOXES + k] = boxOf(triangles[k], intoCluster, one.centre(), steps);
+                words_[begin + CLUSTER_BOXES + k] = boxOf(triangles[k], intoCluster, one.centre(), steps, margin);
         }
     }
 
-    // Returns CLUSTER_BOXES of a triangle.
+    // Returns CLUSTER_BOXES of a triangle. `margin` (m): how much wider the box is.
     [[nodiscard]] std::uint32_t boxOf(std::uint32_t t, const glm::dmat3& intoCluster, const glm::dvec3& centre,
-                                      double steps) const {
+                                      double steps, double margin) const {
         glm::dvec3 low(std::numeric_limits<double>::max());
         glm::dvec3 high = -low;
         for (unsigned k = 0; k < 3; ++k) {
@@ -252,12 +256,9 @@ class MeshWriter {
             low = glm::min(low, corner);
             high = glm::max(high, corner);
         }
-        const auto step = [&](double place, double margin) {
-            const double exact = (place + margin) * steps + double{STEPS_TO_CENTRE};
-            return static_cast<std::uint32_t>(margin < 0 ? std::floor(exact) : std::ceil(exact));
-        };
-        return step(low.x, -rounding()) | step(high.x, rounding()) << 8U | step(low.y, -rounding()) << 16U |
-               step(high.y, rounding()) << 24U;
+        const glm::uvec3 from(glm::floor((low - margin) * steps + double{STEPS_TO_CENTRE}));
+        const glm::uvec3 to(glm::ceil((high + margin) * steps + double{STEPS_TO_CENTRE}));
+        return from.x | to.x << 8U | from.y << 16U | to.y << 24U;
     }
 
     void writeCells(const MeshGrid& grid) {

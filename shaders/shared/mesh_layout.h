@@ -21,7 +21,7 @@
 #define CLUSTER_LOW 3u        // m: the two planes, from the centre along the normal
 #define CLUSTER_HIGH 4u
 #define CLUSTER_CENTRE 5u     // m
-#define CLUSTER_ACROSS 8u     // u, of unit length, across the normal; v is the normal times u
+#define CLUSTER_ACROSS 8u     // u, of unit length, across the normal; v is the cross product of the normal and u
 #define CLUSTER_STEPS 11u     // per metre
 #define CLUSTER_TRIANGLES 12u // address of the first triangle
 #define CLUSTER_COUNT 13u     // of triangles, at most MOST_IN_CLUSTER
@@ -31,7 +31,8 @@
 
 #define TRIANGLE_WORDS (2u * LINE_WORDS)
 #define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
-#define TRIANGLE_SIDES 4u     // three planes across it, through its edges: the direction out of it, then the offset (m)
+// Three planes across it, through its edges: the direction out of it, then the offset (m). All 0: the edge decides.
+#define TRIANGLE_SIDES 4u
 #define TRIANGLE_KEY 16u      // of a contact with the patch
 #define TRIANGLE_FLAGS 17u
 #define TRIANGLE_CLOSED 1u    // the triangle belongs to a solid

@@ -89,12 +89,6 @@ void findSides(mask within, uint triangle, real above) {
     lastPatch = select(where, uints(key), lastPatch);
 }
 
-// Returns the radius of a disc (m): spheres reach no other part of a plane. `above`: the height of the centre (m).
-real discInPlane(real above) {
-    real reach = meshReach * REACH_MORE;
-    return sqrt(max((reach - above) * (reach + above), real(0.0f)));
-}
-
 // Finds the spheres that are near a triangle, and those that are above or below it.
 void findNear(mask where, uint triangle) {
     real height = dot3(meshPoint, real3(meshVector(triangle + TRIANGLE_NORMAL)));
@@ -102,7 +96,6 @@ void findNear(mask where, uint triangle) {
     closeLanes = where && abs(above) <= meshReach;
     besideLanes = noLane();
     if (!anyLane(closeLanes)) return;
-    real disc = discInPlane(above);
     mask inGroove = noLane();
     mask inGrooveBehind = noLane();
     // Only near an edge or beyond it, the place is compared with the edge itself.
@@ -115,8 +108,6 @@ void findNear(mask where, uint triangle) {
         uint edge = word / 2u;
         real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
         real beyond = dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u * (word % 2u))));
-        // In `accurate`, the sphere reaches as far as a groove is long.
-        if (!HAS(ACCURATE)) closeLanes = closeLanes && beyond <= disc;
         mask outside = closeLanes && beyond > 0.0f;
         besideLanes = besideLanes || outside;
         uint flags = obstacleLists[edge + EDGE_FLAGS];
@@ -129,7 +120,6 @@ void findNear(mask where, uint triangle) {
         if ((flags & EDGE_GROOVE) != 0u) inGroove = inGroove || continued;
         if ((flags & EDGE_GROOVE_BEHIND) != 0u) inGrooveBehind = inGrooveBehind || continued;
     }
-    besideLanes = besideLanes && closeLanes;
     mask within = closeLanes && !besideLanes;
     if (anyLane(within)) findSides(within, triangle, above);
     if (HAS(ACCURATE)) {
@@ -252,6 +242,7 @@ uint trianglesNear(uint cluster, vec3 point, float reach) {
     return near;
 }
 
+// Returns false if a sphere certainly reaches no part of a triangle.
 bool mayReachTriangle(uint triangle, vec3 point, float reach) {
     float above = max(abs(heightAbove(triangle + TRIANGLE_NORMAL, point)) - meshRounding, 0.0f);
     if (!(above < reach)) return false;
@@ -261,7 +252,7 @@ bool mayReachTriangle(uint triangle, vec3 point, float reach) {
            heightAbove(triangle + TRIANGLE_SIDES + 8u, point) < room;
 }
 
-// Prefetches the clusters of a lane.
+// Prefetches what findNextTriangle() reads first of the clusters in the first list of a lane.
 void expectClusters(uint lane, Obstacle mesh) {
     for (uint place = LANE_OF(clusterPlace, lane); obstacleLists[place] != END_OF_LIST; ++place) {
         PREFETCH(obstacleLists[mesh.clustersAt + obstacleLists[place] * CLUSTER_WORDS])
@@ -327,7 +318,8 @@ void visitMesh(mask where, Obstacle mesh) {
     meshStart = meshPoint;
     if (HAS(FAST)) meshStart = intoFrame(mesh, spherePoint - meshVelocity * real(params.substep));
     meshReach = sphereRadius * (1.0f + TOUCHES) + sqrt(dot3(meshVelocity, meshVelocity)) * params.substep;
-    if (HAS(ACCURATE)) meshReach = sphereRadius * sqrt(1.0f + GROOVE_LENGTH * GROOVE_LENGTH);
+    if (HAS(ACCURATE))
+        meshReach = sphereRadius * sqrt(1.0f + GROOVE_LENGTH * GROOVE_LENGTH * (1.0f + GROOVE_SPREAD * GROOVE_SPREAD));
     meshRounding = (mesh.b.x + mesh.b.y + mesh.b.z) / mesh.a.w * 1.0e-6f;
     lastPatch = uints(END_OF_LIST);
     patchBefore = uints(END_OF_LIST);
@@ -337,6 +329,7 @@ void visitMesh(mask where, Obstacle mesh) {
     clusterPlace = clustersNear(where, mesh);
     mask listed = clusterPlace != NO_OBSTACLES;
     listsBehind = select(listed && meshReach > NEAR_SHARE * mesh.b.w, uints(1u), uints(0u));
+    trianglesAt = uints(0u);
     trianglesLeft = uints(0u);
     nearTriangle = uints(END_OF_LIST);
     if (LANES > 1u) {

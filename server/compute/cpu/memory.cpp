@@ -89,8 +89,8 @@ Result<std::unique_ptr<Buffer>> CpuBuffer::create(std::string_view label, std::s
                                 "or give it more",
                                 memory::sizeText(size), memory::sizeText(room.left)));
     }
-    // Kernels read few words at many places. With huge pages the processor finds them without a walk through its page
-    // table. The system may refuse, and then the pages are small.
+    // Kernels read few words at many places. With huge pages the processor seldom looks up a page that it has not used
+    // lately. The system may refuse, and then the pages are small.
     if (large) madvise(data, size / hugePageBytes * hugePageBytes, MADV_HUGEPAGE);
     std::memset(data, 0, size);
     return std::unique_ptr<Buffer>(new CpuBuffer(bytes, std::move(words), static_cast<std::byte*>(data)));

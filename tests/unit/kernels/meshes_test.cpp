@@ -165,38 +165,72 @@ unsigned minimaOf(const Mesh& mesh, const dvec3& point, double reach, bool& exac
     return static_cast<unsigned>(minima.size());
 }
 
-// Where triangles are small for a sphere, it touches the mesh at several places at once. None of them is left out.
+// Expects that spheres touch the mesh at every local minimum of the distance, and nowhere else. Returns the number of
+// contacts.
+unsigned touchEveryMinimum(const scene::ShapePointer& shape, const std::vector<vec4>& places, double radius) {
+    constexpr double skin = 2e-4;  // radii: contacts that do not quite touch count too
+    Around around(shape, places, radius);
+    around.run("figures_surfaces");
+    unsigned wrong = 0;
+    unsigned compared = 0;
+    unsigned contacts = 0;
+    const Mesh& mesh = *shape->mesh();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        bool exact = true;
+        const dvec3 point = dvec3(glm::vec3(places[k])) - mesh.centre;
+        const unsigned minima = minimaOf(mesh, point, radius * (1 + skin), exact);
+        if (!exact) continue;
+        ++compared;
+        contacts += minima;
+        if (around.touching[k] != minima) ++wrong;
+    }
+    EXPECT_EQ(wrong, 0U) << "of " << compared << " spheres with " << contacts << " contacts";
+    EXPECT_GT(compared, places.size() * 9 / 10);
+    return contacts;
+}
+
+// Returns `most` places at which spheres overlap the mesh, with their centres outside of a solid.
+std::vector<vec4> placesAt(const scene::ShapePointer& shape, std::vector<vec4> places, double radius,
+                           std::size_t most) {
+    std::erase_if(places, [&](const vec4& place) {
+        const double distance = shape->distance(dvec3(glm::vec3(place)));
+        return distance < 0 || distance > radius;
+    });
+    EXPECT_GE(places.size(), most);
+    places.resize(most);
+    return places;
+}
+
+// Where triangles are small for a sphere, it touches the mesh at several places at once.
 TEST(KernelsAsCpp, TouchAMeshAtEveryMinimumOfTheDistance) {
-    constexpr double radius = 0.1;
-    constexpr std::size_t spheres = 6'000;
-    constexpr double touches = 2e-4;  // in radii: contacts that do not quite touch count too
-    for (const double bump : {0.02, 0.2}) {
-        const auto shape = scene::meshShape(support::bumpyBall(0.5, bump, 4), Mesh::Form::Solid);
-        std::vector<vec4> places = placesIn(dvec3(0.8), 11);
-        std::erase_if(places, [&](const vec4& place) {
-            const double distance = shape->distance(dvec3(glm::vec3(place)));
-            return distance < 0 || distance > radius;
-        });
-        ASSERT_GT(places.size(), spheres);
-        places.resize(spheres);
-        Around around(shape, places, radius);
-        around.run("figures_surfaces");
-        unsigned wrong = 0;
-        unsigned compared = 0;
-        unsigned contacts = 0;
-        const Mesh& mesh = *shape->mesh();
-        for (std::size_t k = 0; k < spheres; ++k) {
-            bool exact = true;
-            const dvec3 point = dvec3(glm::vec3(places[k])) - mesh.centre;
-            const unsigned minima = minimaOf(mesh, point, radius * (1 + touches), exact);
-            if (!exact) continue;
-            ++compared;
-            contacts += minima;
-            if (around.touching[k] != minima) ++wrong;
+    for (const double bump : {0.02, 0.2})
+        for (const auto form : {Mesh::Form::Solid, Mesh::Form::Sheet}) {
+            const auto shape = scene::meshShape(support::bumpyBall(0.5, bump, 4), form);
+            const auto places = placesAt(shape, placesIn(dvec3(0.8), 11), 0.1, 3'000);
+            EXPECT_GT(touchEveryMinimum(shape, places, 0.1), places.size());
         }
-        EXPECT_LE(wrong, 1U) << bump << ": of " << compared << " spheres with " << contacts << " contacts";
-        EXPECT_GT(compared, spheres * 9 / 10) << bump;
-        EXPECT_GT(contacts, compared) << bump;
+}
+
+// A needle joins the patch of a neighbour. By rounding, its third corner may be above that neighbour, or beyond an end
+// of the edge that they share.
+TEST(KernelsAsCpp, TouchTheEdgesOfANeedle) {
+    for (const dvec3& tip : {dvec3(-0.49999, -1e-7, -1e-7), dvec3(0.2, -1e-7, 1e-7), dvec3(-0.5, -2e-6, 0)}) {
+        scene::Triangles triangles;
+        triangles.vertices = {{-0.5, 0, 0}, {0.5, 0, 0}, tip, {0, 0.5, 0}};
+        triangles.corners = {{0, 1, 3}, {1, 0, 2}};
+        const auto shape = scene::meshShape(triangles, Mesh::Form::Sheet);
+        ASSERT_TRUE(shape);
+        ASSERT_EQ(shape->mesh()->corners.size(), 2U);
+        std::vector<vec4> places;
+        for (int k = 0; k < 200; ++k) {
+            const float angle = 3.3F + 0.01F * static_cast<float>(k % 100);
+            const float distance = k < 100 ? 0.0199F : 0.01F;
+            const float x = -0.45F + 0.0045F * static_cast<float>(k);
+            places.emplace_back(x, distance * std::cos(angle), distance * std::sin(angle), 0);
+        }
+        Around around(shape, places, 0.02);
+        around.run("figures_surfaces");
+        EXPECT_EQ(std::ranges::count(around.touching, 0U), 0);
     }
 }
 
