@@ -1,5 +1,6 @@
 // Puts the pairs of each bundle in order (shared/bundles.h): chooses a batch for each candidate, then copies the
 // candidates to their places, the close pairs of each batch first. `phase` is the level and the colour of the bundles.
+// On a GPU, each block of a bundle has a thread: blocks of one colour share no sphere.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -21,9 +22,15 @@ BUFFER(writeonly, uint, bundles)
 #define ALL_HASHED 0xffffu        // HASHED_BATCHES bits
 #define ALONE BATCHES             // the batch of a pair for which none is free
 
-PRIVATE(uint, total)
-PRIVATE(uint, copied)
-PRIVATE(uint, places[2u * (BATCHES + 1u)])  // by batch, close pairs and far pairs: first how many, then the next place
+#define PLACES (2u * (BATCHES + 1u))  // of a block, by batch: close pairs, far pairs
+
+SHARED(uint, places[BLOCKS_PER_BUNDLE * PLACES])  // by block: first the number of its pairs, then the next place
+SHARED(uint, pairsOfBlock[BLOCKS_PER_BUNDLE])
+SHARED(uint, total)
+SHARED(uint, start)
+SHARED(bool, fits)
+SHARED(bool, cutShort)
+PRIVATE(uint, visited)  // candidates
 
 uint hashOf(uint a, uint b) {
     uint ia = idOf(idAndMaterial[a]);
@@ -48,7 +55,7 @@ uint freeBatch(uint busy, uint hash) {
     return (hash + uint(findLSB(~turned))) % HASHED_BATCHES;
 }
 
-void chooseBatch(uint k) {
+void chooseBatch(uint part, uint k) {
     uvec2 pair = candidates[k];
     uint a = pair.x & SLOT_BITS;
     uint busyA = busyOf(a);
@@ -59,63 +66,80 @@ void chooseBatch(uint k) {
         busyBatches[pair.y] = ((phase + 1u) << 24u) | busyB | (1u << batch);
     }
     uint place = 2u * batch + (pair.x >= FAR_BIT ? 1u : 0u);
-    places[place] = places[place] + 1u;
+    places[part * PLACES + place] = places[part * PLACES + place] + 1u;
     candidates[k] = uvec2(pair.x, pair.y | (place << 24u));
-    total = total + 1u;
 }
 
-void copyToPlace(uint k) {
+void copyToPlace(uint part, uint k) {
     uvec2 pair = candidates[k];
-    uint place = pair.y >> 24u;
+    uint place = part * PLACES + (pair.y >> 24u);
     pairs[places[place]] = uvec2(pair.x & SLOT_BITS, pair.y & SLOT_BITS);
     places[place] = places[place] + 1u;
-    copied = copied + 1u;
 }
 
-void visitCandidates(uint bundle, bool copying) {
+void visitCandidates(uint bundle, uint part, bool copying) {
     uint level = levelOfPhase();
     uvec4 cells = cellsOf(level);
-    for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) {
-        BlockPlace block = blockOfBundle(bundle, level, part);
-        for (uint group = 0u; group < 8u && block.exists; ++group) {
-            uvec2 range = groupRange[groupOfBlock(cells, block, group)];
-            for (uint k = firstCandidate(range); k < firstCandidate(range) + candidatesOf(range); ++k) {
-                if (copying)
-                    copyToPlace(k);
-                else
-                    chooseBatch(k);
-            }
+    BlockPlace block = blockOfBundle(bundle, level, part);
+    visited = 0u;
+    for (uint group = 0u; group < 8u && block.exists; ++group) {
+        uvec2 range = groupRange[groupOfBlock(cells, block, group)];
+        for (uint k = firstCandidate(range); k < firstCandidate(range) + candidatesOf(range); ++k) {
+            if (copying)
+                copyToPlace(part, k);
+            else
+                chooseBatch(part, k);
+            visited = visited + 1u;
         }
     }
 }
 
-KERNEL(bundlesOfPhase()) {
+// Finds room for the pairs, and where the pairs of each batch and block begin.
+void divideRoom(uint words) {
+    total = 0u;
+    for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) total = total + pairsOfBlock[part];
+    start = total == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], total + PAIR_PADDING);
+    fits = total > 0u && total + PAIR_PADDING <= params.pairCapacity &&
+           start <= params.pairCapacity - total - PAIR_PADDING;
+    cutShort = false;
+    if (!fits) return;
+    uint next = start;
+    for (uint place = 0u; place < PLACES; ++place) {
+        for (uint at = place; at < BLOCKS_PER_BUNDLE * PLACES; at += PLACES) {
+            uint count = places[at];
+            places[at] = next;
+            next = next + count;
+        }
+        if (place % 2u != 0u) bundles[words + 4u + place / 2u] = next;
+    }
+}
+
+BUNDLE_KERNEL(bundlesOfPhase()) {
     uint bundle = bundleOfPhase(invocation);
     uint words = bundle * BUNDLE_WORDS;
-    bundles[words] = 0u;
-    bundles[words + 1u] = 0u;
-    bundles[words + 2u] = 1u;
-    total = 0u;
-    copied = 0u;
-    if (counters[COUNTER_CANDIDATES] > params.pairCapacity) return;  // list_fit.comp
-    for (uint k = 0u; k < 2u * (BATCHES + 1u); ++k) places[k] = 0u;
-    visitCandidates(bundle, false);
-    if (total == 0u) return;
-    uint start = atomicAdd(counters[COUNTER_PAIRS], total + PAIR_PADDING);
-    if (total + PAIR_PADDING > params.pairCapacity || start > params.pairCapacity - total - PAIR_PADDING) return;
-    bundles[words] = start;
-    bundles[words + 1u] = total;
-    for (uint batch = 0u; batch <= BATCHES; ++batch) {
-        uint close = places[2u * batch];
-        uint far = places[2u * batch + 1u];
-        places[2u * batch] = start;
-        places[2u * batch + 1u] = start + close;
-        start = start + close + far;
-        bundles[words + 4u + batch] = start;
+    if (FIRST_THREAD) {
+        bundles[words] = 0u;
+        bundles[words + 1u] = 0u;
+        bundles[words + 2u] = 1u;
     }
-    visitCandidates(bundle, true);
-    if (copied == total) return;
-    // As in list_build.comp: the loops have ended early, so that places of the list are not written.
-    bundles[words + 1u] = 0u;
-    atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
+    if (counters[COUNTER_CANDIDATES] > params.pairCapacity) return;  // list_fit.comp
+    for (uint part = THREAD; part < BLOCKS_PER_BUNDLE; part += THREADS) {
+        for (uint place = 0u; place < PLACES; ++place) places[part * PLACES + place] = 0u;
+        visitCandidates(bundle, part, false);
+        pairsOfBlock[part] = visited;
+    }
+    BARRIER
+    if (FIRST_THREAD) divideRoom(words);
+    BARRIER
+    if (!fits) return;
+    for (uint part = THREAD; part < BLOCKS_PER_BUNDLE; part += THREADS) {
+        visitCandidates(bundle, part, true);
+        if (visited != pairsOfBlock[part]) cutShort = true;
+    }
+    BARRIER
+    if (!FIRST_THREAD) return;
+    // As in list_build.comp: if the loops have ended early, places of the list are not written.
+    bundles[words] = start;
+    bundles[words + 1u] = cutShort ? 0u : total;
+    if (cutShort) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
 }

@@ -56,6 +56,9 @@
 //   BUFFER_BARRIER              The same, and for buffers that are declared `coherent`.
 #ifndef __cplusplus
 
+// NVIDIA's compiler unrolls loops and copies functions into each call, which takes long. Others ignore this.
+#pragma optionNV(unroll none)
+
 #ifndef LOCAL_SIZE
 #define LOCAL_SIZE 64
 #endif

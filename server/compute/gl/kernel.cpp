@@ -1,6 +1,7 @@
 #include "compute/gl/kernel.h"
 
 #include <array>
+#include <chrono>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -59,7 +60,10 @@ Result<std::unique_ptr<Kernel>> GlKernel::create(const std::shared_ptr<Context>&
     std::unique_ptr<GlKernel> kernel(new GlKernel(context, std::string(file)));
     kernel->declared_ = std::move(source->buffers);
     for (const auto& [type, name] : kernel->declared_) kernel->buffers_.push_back({type, name});
+    const auto begin = std::chrono::steady_clock::now();
     if (auto built = kernel->build(source->text, source->files); !built) return tl::unexpected(built.error());
+    spdlog::debug("{}: compiled in {:.2f} s", file,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     if (auto reflected = kernel->reflect(); !reflected) return tl::unexpected(reflected.error());
     return kernel;
 }
