@@ -61,9 +61,9 @@ PRIVATE(real3, momentOfRolling) // at one surface, about the centre of the spher
 
 // The row of `wallImpulse` for a contact. The first three rows are for the axes of the bounds, the others for obstacles
 // that the sphere touches.
-uints rowOfSurface(mask where, uint key) {
+uints rowOfSurface(mask where, uint surface, uints key) {
     uints first = sphereId * params.maxWallHistory;
-    if (key < 6u) return first + key / 2u;
+    if (surface < 6u) return first + surface / 2u;
     uints found = first + 3u;
     real foundRow = real(0.0f);  // none
     mask known = noLane();
@@ -128,9 +128,9 @@ void reportDroppedWall(uint id) {
 
 // Solves the contacts in `where` with one surface. The spheres meet it in this substep, or they may hold an impulse.
 RARE void solveSurface(mask where, mask close, real3 n, real separation, real recession, real speed, uint wallMaterial,
-                       uint surface, uint key) {
+                       uint surface, uints key) {
     float h = params.substep;
-    uints row = rowOfSurface(where, key);
+    uints row = rowOfSurface(where, surface, key);
     real4 remembered = ROW(wallImpulse, row);
     mask held = isAtSurface(remembered, key);
     mask involved = where && (close || held);
@@ -253,7 +253,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
         precise real3 moment = cross3(spherePoint, impulse) - torque * sphereRadius;
         EACH_LANE_VECTORS(holds, addToSurfaceSums, sphereId, driveRow + 1u, impulse, moment)
     }
-    real4 kept = real4(impulse, select(holds, real(float(key + 1u)), real(0.0f)));
+    real4 kept = real4(impulse, select(holds, real(key + 1u), real(0.0f)));
     SET_ROW(stored, wallImpulse, row, kept, remembered)
     if (HAS(FRICTION)) SET_ROW(stored, wallTorque, row, real4(torque, 0.0f), oldTorque)
 }
@@ -266,7 +266,7 @@ real3 velocityAlong() {
     return sphereVelocity;
 }
 
-void visitSurface(mask where, real3 n, real separation, real recession, uint wallMaterial, uint surface, uint key) {
+void visitSurface(mask where, real3 n, real separation, real recession, uint wallMaterial, uint surface, uints key) {
     real speed = dot3(relativeVelocity(), n);
     if (HAS(MOTION)) {
         real motion = -speed * params.substep;

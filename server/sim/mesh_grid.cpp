@@ -23,47 +23,47 @@ glm::uvec3 cellsFor(const glm::dvec3& size, double width) {
     return glm::uvec3(glm::max(glm::ceil(size / width), glm::dvec3(1)));
 }
 
-// The cells that clusters come near to. A cluster counts as its box, a single triangle as itself.
+// The cells that nodes come near to. A node counts as its box, a single triangle as itself.
 class NearCells {
   public:
-    NearCells(const scene::Mesh& mesh, const MeshClusters& clusters, const MeshGrid& grid)
-        : mesh_(mesh), clusters_(clusters), grid_(grid) {}
+    NearCells(const scene::Mesh& mesh, const MeshTree& tree, const MeshGrid& grid)
+        : mesh_(mesh), tree_(tree), grid_(grid) {}
 
-    // Calls `visit` with each list of cells that has a cluster.
+    // Calls `visit` with each list of cells that has the node.
     template <class Visit>
-    void visit(const MeshClusters::Cluster& cluster, const Visit& visit) const {
-        visitRange(cluster, cellAt(cluster.low - grid_.reach), cellAt(cluster.high + grid_.reach), visit);
+    void visit(const MeshTree::Node& node, const Visit& visit) const {
+        visitRange(node, cellAt(node.low - grid_.reach), cellAt(node.high + grid_.reach), visit);
     }
 
   private:
     // The same for the cells from `from` to `to`. Halves the range along its longest side.
     template <class Visit>
-    void visitRange(const MeshClusters::Cluster& cluster, const glm::uvec3& from, const glm::uvec3& to,
+    void visitRange(const MeshTree::Node& node, const glm::uvec3& from, const glm::uvec3& to,
                     const Visit& visit) const {
         const glm::dvec3 half = 0.5 * grid_.width * (glm::dvec3(to - from) + 1.0);
         const glm::dvec3 centre = grid_.low + grid_.width * glm::dvec3(from) + half;
-        if (!isNear(cluster, grid_.reach, centre, half)) return;
+        if (!isNear(node, grid_.reach, centre, half)) return;
         if (from == to) {
             const auto cell = from.x + std::size_t{grid_.cells.x} * (from.y + std::size_t{grid_.cells.y} * from.z);
-            return visit(2 * cell + (isNear(cluster, grid_.nearReach, centre, half) ? 0 : 1));
+            return visit(2 * cell + (isNear(node, grid_.nearReach, centre, half) ? 0 : 1));
         }
         const int axis = half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
         glm::uvec3 middle = to;
         middle[axis] = from[axis] + (to[axis] - from[axis]) / 2;
-        visitRange(cluster, from, middle, visit);
+        visitRange(node, from, middle, visit);
         glm::uvec3 next = from;
         next[axis] = middle[axis] + 1;
-        visitRange(cluster, next, to, visit);
+        visitRange(node, next, to, visit);
     }
 
-    // Returns true if a point of the box may be within `reach` of the cluster (m).
-    [[nodiscard]] bool isNear(const MeshClusters::Cluster& cluster, double reach, const glm::dvec3& centre,
+    // Returns true if a point of the box may be within `reach` of the node (m).
+    [[nodiscard]] bool isNear(const MeshTree::Node& node, double reach, const glm::dvec3& centre,
                               const glm::dvec3& half) const {
-        if (cluster.count > 1) {
-            const glm::dvec3 gap = glm::max(glm::abs(centre - cluster.centre()) - cluster.half() - half, glm::dvec3(0));
+        if (node.count > 1) {
+            const glm::dvec3 gap = glm::max(glm::abs(centre - node.centre()) - node.half() - half, glm::dvec3(0));
             return glm::length(gap) <= 1.001 * reach;
         }
-        const std::uint32_t t = clusters_.order[cluster.first];
+        const std::uint32_t t = tree_.order[node.first];
         const glm::dvec3 normal = glm::abs(mesh_.normal(t));
         const double slab = 1.001 * (reach + glm::dot(normal, half)) + flatness();
         if (std::abs(glm::dot(mesh_.normal(t), centre - mesh_.corner(t, 0))) > slab) return false;
@@ -80,20 +80,20 @@ class NearCells {
     }
 
     const scene::Mesh& mesh_;
-    const MeshClusters& clusters_;
+    const MeshTree& tree_;
     const MeshGrid& grid_;
 };
 
 // Fills the lists of the cells. Returns false if there are more than `most` entries.
-bool fill(const scene::Mesh& mesh, const MeshClusters& clusters, MeshGrid& grid, std::size_t most) {
-    const NearCells near(mesh, clusters, grid);
-    const auto count = static_cast<std::uint32_t>(clusters.clusters.size());
+bool fill(const scene::Mesh& mesh, const MeshTree& tree, MeshGrid& grid, std::size_t most) {
+    const NearCells near(mesh, tree, grid);
+    const auto count = static_cast<std::uint32_t>(tree.tops.size());
     std::vector<std::uint32_t> listOf;
     std::vector<std::uint32_t> end(count);
     const std::size_t lists = std::size_t{2} * grid.cells.x * grid.cells.y * grid.cells.z;
     grid.first.assign(lists + 1, 0);
     for (std::uint32_t k = 0; k < count; ++k) {
-        near.visit(clusters.clusters[k], [&](std::size_t list) {
+        near.visit(tree.nodes[tree.tops[k]], [&](std::size_t list) {
             listOf.push_back(static_cast<std::uint32_t>(list));
             ++grid.first[list + 1];
         });
@@ -102,9 +102,9 @@ bool fill(const scene::Mesh& mesh, const MeshClusters& clusters, MeshGrid& grid,
     }
     for (std::size_t list = 0; list < lists; ++list) grid.first[list + 1] += grid.first[list];
     std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-    grid.clusters.resize(listOf.size());
+    grid.nodes.resize(listOf.size());
     for (std::uint32_t k = 0, entry = 0; k < count; ++k)
-        for (; entry < end[k]; ++entry) grid.clusters[next[listOf[entry]]++] = k;
+        for (; entry < end[k]; ++entry) grid.nodes[next[listOf[entry]]++] = tree.tops[k];
     return true;
 }
 
@@ -144,7 +144,7 @@ void findSteps(MeshGrid& grid) {
 
 }  // namespace
 
-MeshGrid MeshGrid::around(const scene::Mesh& mesh, const MeshClusters& clusters, double reach, double nearReach) {
+MeshGrid MeshGrid::around(const scene::Mesh& mesh, const MeshTree& tree, double reach, double nearReach) {
     MeshGrid grid;
     grid.reach = reach;
     grid.nearReach = nearReach;
@@ -159,7 +159,7 @@ MeshGrid MeshGrid::around(const scene::Mesh& mesh, const MeshClusters& clusters,
         if (counts.x * counts.y * counts.z > static_cast<double>(cells)) continue;
         grid.cells = cellsFor(size, grid.width);
         const bool one = grid.cells == glm::uvec3(1);
-        if (fill(mesh, clusters, grid, one ? std::numeric_limits<std::size_t>::max() : entries)) break;
+        if (fill(mesh, tree, grid, one ? std::numeric_limits<std::size_t>::max() : entries)) break;
     }
     findSteps(grid);
     return grid;

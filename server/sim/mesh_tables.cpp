@@ -1,6 +1,7 @@
 #include "sim/mesh_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -16,8 +17,8 @@
 #include "scene/mesh/mesh.h"
 #include "scene/shapes.h"
 #include "sim/layout.h"
-#include "sim/mesh_clusters.h"
 #include "sim/mesh_grid.h"
+#include "sim/mesh_tree.h"
 
 namespace spherule::sim {
 
@@ -30,6 +31,9 @@ namespace {
 // A sphere looks for triangles where its centre is. It may touch one at a distance of its radius, and moves by up to
 // half of it in a substep.
 constexpr double reachInRadii = 1.75;
+
+constexpr double leastCosineOfWedge = 0.2;    // flatter ones have no limit: TRIANGLE_WEDGE
+constexpr std::size_t mostEdgesOfWedge = 12;  // of a vertex
 
 using Words = std::vector<std::uint32_t>;
 
@@ -48,16 +52,17 @@ class MeshWriter {
         : mesh_(mesh), smooth_(smooth), words_(words), base_(base), nextKey_(nextKey) {}
 
     // Sets the addresses of the row.
-    void write(const MeshClusters& clusters, const MeshGrid& grid, MeshTables::Row& row) {
+    void write(const MeshTree& tree, const MeshGrid& grid, MeshTables::Row& row) {
         numberFaces();
         findOwners();
-        putInOrder(clusters);
+        findFans();
+        putInOrder(tree);
         writeEdges();
         writeVertices();
         const std::uint32_t trianglesAt = nextLine();
-        for (const std::uint32_t triangle : clusters.order) writeTriangle(triangle);
-        row.clustersAt = nextLine();
-        writeClusters(clusters, trianglesAt);
+        for (const std::uint32_t triangle : tree.order) writeTriangle(triangle);
+        row.nodesAt = nextLine();
+        writeNodes(tree, trianglesAt);
         row.cellsAt = here();
         writeCells(grid);
     }
@@ -112,11 +117,11 @@ class MeshWriter {
         return mesh_.closed() ? 0 : EDGE_GROOVE_BEHIND;
     }
 
-    // Edges and vertices lie in memory as the clusters use them, so that what a sphere reads is together.
-    void putInOrder(const MeshClusters& clusters) {
+    // Edges and vertices lie in memory as the leaves use them, so that what a sphere reads is together.
+    void putInOrder(const MeshTree& tree) {
         placeOf_.assign(mesh_.edges.size(), scene::Mesh::none);
         std::vector<bool> seen(mesh_.vertices.size());
-        for (const std::uint32_t t : clusters.order) {
+        for (const std::uint32_t t : tree.order) {
             for (const std::uint32_t word : mesh_.edgesOf[t]) {
                 if (placeOf_[word / 2] != scene::Mesh::none) continue;
                 placeOf_[word / 2] = static_cast<std::uint32_t>(edges_.size());
@@ -151,30 +156,34 @@ class MeshWriter {
         }
     }
 
-    void writeVertices() {
+    void findFans() {
         const std::size_t count = mesh_.vertices.size();
-        std::vector<std::uint32_t> first(count + 1, 0);
-        std::vector<bool> meets(count);
+        fanAt_.assign(count + 1, 0);
         for (const scene::Mesh::Edge& edge : mesh_.edges)
-            for (const std::uint32_t v : edge.vertices) {
-                ++first[v + 1];
-                if (edge.meets) meets[v] = true;
-            }
-        for (std::size_t v = 0; v < count; ++v) first[v + 1] += first[v];
-        std::vector<std::uint32_t> fan(first.back());
-        std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+            for (const std::uint32_t v : edge.vertices) ++fanAt_[v + 1];
+        for (std::size_t v = 0; v < count; ++v) fanAt_[v + 1] += fanAt_[v];
+        fans_.resize(fanAt_.back());
+        std::vector<std::uint32_t> next(fanAt_.begin(), fanAt_.end() - 1);
         for (std::uint32_t k = 0; k < mesh_.edges.size(); ++k)
-            for (std::uint32_t end = 0; end < 2; ++end)
-                fan[next[mesh_.edges[k].vertices[end]]++] = 2 * addressOf(k) + end;
-        vertexAt_.assign(count, 0);
+            for (std::uint32_t end = 0; end < 2; ++end) fans_[next[mesh_.edges[k].vertices[end]]++] = 2 * k + end;
+    }
+
+    // Returns the edges of a vertex: twice the number, plus 1 if the edge ends there.
+    [[nodiscard]] std::span<const std::uint32_t> fanOf(std::uint32_t vertex) const {
+        return std::span(fans_).subspan(fanAt_[vertex], fanAt_[vertex + 1] - fanAt_[vertex]);
+    }
+
+    void writeVertices() {
+        vertexAt_.assign(mesh_.vertices.size(), 0);
         for (const std::uint32_t v : vertices_) {
-            if (!meets[v]) continue;
+            const auto fan = fanOf(v);
+            if (std::ranges::none_of(fan, [&](std::uint32_t word) { return mesh_.edges[word / 2].meets; })) continue;
             vertexAt_[v] = here();
             put(words_, mesh_.vertices[v]);
             put(words_, mesh_.closed() ? mesh_.vertexNormals[v] : glm::dvec3(0));
             words_.push_back(keyBeyond(owner_[v]));
-            words_.push_back(first[v + 1] - first[v]);
-            words_.insert(words_.end(), fan.begin() + first[v], fan.begin() + first[v + 1]);
+            words_.push_back(static_cast<std::uint32_t>(fan.size()));
+            for (const std::uint32_t word : fan) words_.push_back(2 * addressOf(word / 2) + word % 2);
         }
     }
 
@@ -198,67 +207,83 @@ class MeshWriter {
         for (const std::uint32_t word : mesh_.edgesOf[t]) words_.push_back(2 * addressOf(word / 2) + word % 2);
         for (const std::uint32_t corner : mesh_.corners[t])
             words_.push_back(owner_[corner] == t ? vertexAt_[corner] : 0);
+        put(words_, wedgeBeside(t));
         nextLine();
     }
 
-    // Returns by how much planes and boxes of clusters are wider than their content (m): coordinates are float32.
-    [[nodiscard]] double rounding() const { return 1e-6 * glm::length(mesh_.half); }
-
-    void writeClusters(const MeshClusters& clusters, std::uint32_t trianglesAt) {
-        for (const MeshClusters::Cluster& one : clusters.clusters) {
-            const auto triangles = std::span(clusters.order).subspan(one.first, one.count);
-            glm::dvec3 normal(0);
-            for (const std::uint32_t t : triangles) normal += mesh_.normal(t);
-            normal = glm::length(normal) > 0.1 ? glm::normalize(normal) : mesh_.normal(triangles[0]);
-            const glm::dvec3 least = glm::abs(normal);
-            const glm::dvec3 axis = least.x <= least.y && least.x <= least.z ? glm::dvec3(1, 0, 0)
-                                    : least.y <= least.z                     ? glm::dvec3(0, 1, 0)
-                                                                             : glm::dvec3(0, 0, 1);
-            const glm::dvec3 across = glm::normalize(glm::cross(axis, normal));
-            const glm::dmat3 intoCluster = glm::transpose(glm::dmat3(across, glm::cross(normal, across), normal));
-            double low = std::numeric_limits<double>::max();
-            double high = -low;
-            double extent = 0;
-            double bend = 0;  // of patches: the largest distance of a corner from the plane
-            for (const std::uint32_t t : triangles)
-                for (unsigned k = 0; k < 3; ++k) {
-                    const scene::Mesh::Patch& patch = mesh_.patches[mesh_.patchOf[t]];
-                    bend = std::max(bend, std::abs(glm::dot(patch.normal, mesh_.corner(t, k)) - patch.offset));
-                    const glm::dvec3 corner = intoCluster * (mesh_.corner(t, k) - one.centre());
-                    low = std::min(low, corner.z);
-                    high = std::max(high, corner.z);
-                    extent = std::max({extent, std::abs(corner.x), std::abs(corner.y)});
-                }
-            const double margin = bend + rounding();
-            const double steps = double{STEPS_TO_CENTRE} / (1.001 * extent + 2 * margin);
-            const std::size_t begin = words_.size();
-            put(words_, normal);
-            put(words_, low - margin);
-            put(words_, high + margin);
-            put(words_, one.centre());
-            put(words_, across);
-            put(words_, steps);
-            words_.push_back(trianglesAt + one.first * TRIANGLE_WORDS);
-            words_.push_back(one.count);
-            words_.resize(begin + CLUSTER_WORDS);
-            for (std::uint32_t k = 0; k < one.count; ++k)
-                words_[begin + CLUSTER_BOXES + k] = boxOf(triangles[k], intoCluster, one.centre(), steps, margin);
+    // Returns TRIANGLE_WEDGE. Places that are nearest to an edge or vertex of a solid lie in the cone of directions
+    // that point away from all edges there.
+    [[nodiscard]] double wedgeBeside(std::uint32_t t) const {
+        if (!mesh_.closed()) return double{ANY_WEDGE};
+        const glm::dvec3& normal = mesh_.normal(t);
+        double cosine = 1;  // of the largest angle between the normal and such a direction
+        for (const std::uint32_t word : mesh_.edgesOf[t]) {
+            const scene::Mesh::Edge& edge = mesh_.edges[word / 2];
+            if (grooveAt(edge) != 0) return double{ANY_WEDGE};
+            if (edge.meets && word % 2 == 0)
+                cosine = std::min(cosine, glm::dot(normal, mesh_.normal(edge.triangles[1])));
         }
+        for (const std::uint32_t corner : mesh_.corners[t])
+            if (owner_[corner] == t && vertexAt_[corner] != 0) cosine = std::min(cosine, coneOf(corner, normal));
+        return cosine > leastCosineOfWedge ? std::sqrt(1 - cosine * cosine) / cosine : double{ANY_WEDGE};
     }
 
-    // Returns CLUSTER_BOXES of a triangle. `margin` (m): how much wider the box is.
-    [[nodiscard]] std::uint32_t boxOf(std::uint32_t t, const glm::dmat3& intoCluster, const glm::dvec3& centre,
-                                      double steps, double margin) const {
-        glm::dvec3 low(std::numeric_limits<double>::max());
-        glm::dvec3 high = -low;
-        for (unsigned k = 0; k < 3; ++k) {
-            const glm::dvec3 corner = intoCluster * (mesh_.corner(t, k) - centre);
-            low = glm::min(low, corner);
-            high = glm::max(high, corner);
+    // Returns the cosine of the largest angle between a normal and a direction in the cone of a vertex. It is the angle
+    // of a direction across two of the edges.
+    [[nodiscard]] double coneOf(std::uint32_t vertex, const glm::dvec3& normal) const {
+        const auto fan = fanOf(vertex);
+        if (fan.size() > mostEdgesOfWedge) return -1;
+        std::array<glm::dvec3, mostEdgesOfWedge> directions;
+        for (std::size_t k = 0; k < fan.size(); ++k) {
+            const auto& ends = mesh_.edges[fan[k] / 2].vertices;
+            const std::uint32_t end = fan[k] % 2;
+            directions[k] = glm::normalize(mesh_.vertices[ends[1 - end]] - mesh_.vertices[ends[end]]);
         }
-        const glm::uvec3 from(glm::floor((low - margin) * steps + double{STEPS_TO_CENTRE}));
-        const glm::uvec3 to(glm::ceil((high + margin) * steps + double{STEPS_TO_CENTRE}));
-        return from.x | to.x << 8U | from.y << 16U | to.y << 24U;
+        const auto edges = std::span(directions).first(fan.size());
+        double least = 1;
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const glm::dvec3 across = glm::cross(edges[i], edges[j]);
+                if (glm::length(across) < 1e-9) continue;  // each of the two has its directions with other edges
+                for (const glm::dvec3& n : {glm::normalize(across), -glm::normalize(across)})
+                    if (std::ranges::all_of(edges, [&](const glm::dvec3& edge) { return glm::dot(n, edge) < 1e-7; }))
+                        least = std::min(least, glm::dot(n, normal));
+            }
+        return least;
+    }
+
+    // Returns by how much planes and boxes of nodes are wider than their content at least (m): coordinates are float32.
+    [[nodiscard]] double rounding() const { return 1e-6 * glm::length(mesh_.half); }
+
+    void writeNodes(const MeshTree& tree, std::uint32_t trianglesAt) {
+        const std::uint32_t nodesAt = here();
+        for (std::uint32_t number = 0; number < tree.nodes.size(); ++number) {
+            const MeshTree::Node& node = tree.nodes[number];
+            const auto triangles = std::span(tree.order).subspan(node.first, node.count);
+            const bool isGroup = node.leaves > 0;
+            const MeshSlab slab(mesh_, triangles, node.centre(), rounding());
+            const std::size_t begin = words_.size();
+            put(words_, slab.axes[2]);
+            put(words_, slab.low);
+            put(words_, slab.high);
+            put(words_, slab.centre);
+            put(words_, slab.axes[0]);
+            put(words_, slab.steps);
+            words_.push_back(isGroup ? nodesAt + (number + 1) * NODE_WORDS : trianglesAt + node.first * TRIANGLE_WORDS);
+            words_.push_back(isGroup ? node.leaves : node.count);
+            words_.push_back(isGroup ? 1 : 0);
+            words_.resize(begin + NODE_WORDS);
+            const auto child = [&](std::uint32_t k) {
+                if (!isGroup) return triangles.subspan(k, 1);
+                const MeshTree::Node& leaf = tree.nodes[number + 1 + k];
+                return std::span(tree.order).subspan(leaf.first, leaf.count);
+            };
+            for (std::uint32_t k = 0; k < (isGroup ? node.leaves : node.count); ++k) {
+                const glm::uvec4 box = slab.boxOf(child(k)) | glm::uvec4(0, 0x80, 0, 0x80);  // TOP_BITS
+                for (int side = 0; side < 4; ++side)
+                    words_[begin + NODE_BOXES + k / 4 * 4 + static_cast<unsigned>(side)] |= box[side] << (8 * (k % 4));
+            }
+        }
     }
 
     void writeCells(const MeshGrid& grid) {
@@ -271,8 +296,8 @@ class MeshWriter {
             }
             words_[cells + cell] = here();
             for (std::size_t list = 2 * cell; list < 2 * cell + 2; ++list) {
-                words_.insert(words_.end(), grid.clusters.begin() + grid.first[list],
-                              grid.clusters.begin() + grid.first[list + 1]);
+                words_.insert(words_.end(), grid.nodes.begin() + grid.first[list],
+                              grid.nodes.begin() + grid.first[list + 1]);
                 words_.push_back(END_OF_LIST);
             }
         }
@@ -290,6 +315,8 @@ class MeshWriter {
     std::vector<std::uint32_t> faceKey_;   // of patches
     std::vector<std::uint32_t> owner_;     // of vertices: their lowest triangle
     std::vector<std::uint32_t> vertexAt_;  // address; 0: spheres cannot touch it
+    std::vector<std::uint32_t> fans_;      // edges of all vertices: see fanOf()
+    std::vector<std::uint32_t> fanAt_;     // by vertex: where its edges begin in fans_
 };
 
 std::shared_ptr<const MeshTables> made(const scene::Scene& scene, double largestRadius) {
@@ -304,11 +331,11 @@ std::shared_ptr<const MeshTables> made(const scene::Scene& scene, double largest
         if (mesh) {
             // A scene may have no spheres yet.
             const double reach = std::max(reachInRadii * largestRadius, 1e-4 * glm::length(mesh->half));
-            const MeshClusters clusters = MeshClusters::of(*mesh, reach);
-            const MeshGrid grid = MeshGrid::around(*mesh, clusters, reach, double{NEAR_SHARE} * reach);
+            const MeshTree tree = MeshTree::of(*mesh, reach);
+            const MeshGrid grid = MeshGrid::around(*mesh, tree, reach, double{NEAR_SHARE} * reach);
             row.a = glm::vec4(glm::dvec4(grid.low, 1 / grid.width));
             row.b = glm::vec4(glm::dvec4(grid.cells, grid.reach));
-            MeshWriter(*mesh, smooth, tables->words, base, nextKey).write(clusters, grid, row);
+            MeshWriter(*mesh, smooth, tables->words, base, nextKey).write(tree, grid, row);
         }
         row.endKey = nextKey;
         tables->rows.push_back(row);

@@ -20,7 +20,7 @@ struct MeshTables {
         glm::vec4 a{};
         glm::vec4 b{};
         std::uint32_t cellsAt = 0;
-        std::uint32_t clustersAt = 0;
+        std::uint32_t nodesAt = 0;
         std::uint32_t firstKey = 0;  // of its contacts
         std::uint32_t endKey = 0;
     };

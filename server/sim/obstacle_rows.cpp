@@ -49,7 +49,7 @@ ObstacleRows::ObstacleRows(const scene::Scene& scene, const MeshTables* meshes) 
             to.a = mesh.a;
             to.b = mesh.b;
             to.cellsAt = mesh.cellsAt;
-            to.clustersAt = mesh.clustersAt;
+            to.nodesAt = mesh.nodesAt;
         }
         to.shape = static_cast<std::uint32_t>(obstacle.shape->kind());
         to.parts = obstacle.shape->parts();

@@ -82,8 +82,8 @@ bool hasSlip(vec4 slip) {
     return slip.w != 0.0f;
 }
 
-ANY_MASK isAtSurface(ANY_REAL4 row, uint surface) {
-    return row.w == float(surface + 1u);
+ANY_MASK isAtSurface(ANY_REAL4 row, ANY_UINT surface) {
+    return wholeOf(row.w) == surface + 1u;
 }
 
 // The surface of a row that is not empty.

@@ -85,7 +85,7 @@ struct Obstacle {
     uint framed;         // 1: it has a frame
     uint motion;         // the row of its motion; 0: it is at rest in this substep
     uint cellsAt;        // of a mesh: see mesh_layout.h
-    uint clustersAt;
+    uint nodesAt;
 };
 
 // Behind the rows of the obstacles, `obstacles` has a row for the motion of each obstacle that may move. In these rows, a

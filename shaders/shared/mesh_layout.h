@@ -2,32 +2,38 @@
 // in this buffer. Coordinates are in the frame of the obstacle (m).
 //
 // The row of the obstacle has the grid. a.xyz is its lowest corner, and a.w the reciprocal of the width of its cells
-// (1/m). b.xyz is the number of its cells along each axis, and b.w its reach (m). A cell knows all clusters of triangles
+// (1/m). b.xyz is the number of its cells along each axis, and b.w its reach (m). A cell knows all nodes (MeshTree::tops)
 // within the reach of its points.
 // `cellsAt` is the address of its cells, along x first. A cell is the address of two lists, one behind the other. The
-// first has the clusters within NEAR_SHARE of the reach, for spheres that move little, the second has the others. A list
-// is numbers of clusters in ascending order, then END_OF_LIST. A cell without clusters has EMPTY_CELL, and bits of a
+// first has the nodes within NEAR_SHARE of the reach, for spheres that move little, the second has the others. A list
+// is numbers of nodes in ascending order, then END_OF_LIST. A cell without nodes has EMPTY_CELL, and bits of a
 // distance (m): no point of the cell is nearer to the mesh.
 #define EMPTY_CELL 0x80000000u
 #define NEAR_SHARE 0.63f
 
-// Clusters, triangles and edges fill whole lines of a cache.
+// Nodes, triangles and edges fill whole lines of a cache.
 #define LINE_WORDS 16u
 
-// `clustersAt` is the address of the clusters (sim/mesh_clusters.h). A cluster is between two planes. Across their normal,
-// a box of its own is around each of its triangles. The boxes are on a grid of 255 by 255 steps around the centre.
-#define CLUSTER_WORDS (2u * LINE_WORDS)
-#define CLUSTER_NORMAL 0u     // of unit length
-#define CLUSTER_LOW 3u        // m: the two planes, from the centre along the normal
-#define CLUSTER_HIGH 4u
-#define CLUSTER_CENTRE 5u     // m
-#define CLUSTER_ACROSS 8u     // u, of unit length, across the normal; v is the cross product of the normal and u
-#define CLUSTER_STEPS 11u     // per metre
-#define CLUSTER_TRIANGLES 12u // address of the first triangle
-#define CLUSTER_COUNT 13u     // of triangles, at most MOST_IN_CLUSTER
-#define CLUSTER_BOXES LINE_WORDS  // of each triangle, in steps, a byte each: lowest u, highest u, lowest v, highest v
-#define MOST_IN_CLUSTER 16u
-#define STEPS_TO_CENTRE 127.5f
+// `nodesAt` is the address of the nodes (sim/mesh_tree.h). A group has leaves as
+// children, and a leaf has triangles. A node is between two planes. Across their normal, a box of its own is around each of its children. The boxes
+// are on a grid of 127 by 127 steps around the centre. The boxes of four children are in four words, a byte for each
+// child: lowest u, highest u, lowest v, highest v. The highest ones have TOP_BITS in addition.
+#define NODE_WORDS (2u * LINE_WORDS)
+#define NODE_NORMAL 0u    // of unit length
+#define NODE_LOW 3u       // m: the two planes, from the centre along the normal
+#define NODE_HIGH 4u
+#define NODE_CENTRE 5u    // m
+#define NODE_ACROSS 8u    // u, of unit length, across the normal; v is the cross product of the normal and u
+#define NODE_STEPS 11u    // per metre
+#define NODE_FIRST 12u    // address of the first child
+#define NODE_COUNT 13u    // of children, at most CHILDREN_OF_NODE
+#define NODE_IS_GROUP 14u // 1, else 0
+#define NODE_BOXES LINE_WORDS
+#define CHILDREN_OF_NODE 16u
+#define STEPS_TO_CENTRE 63.5f
+#define ALL_STEPS 127.0f
+#define FOUR_BYTES 0x01010101u  // times a byte: the same in each byte
+#define TOP_BITS 0x80808080u    // of each byte
 
 #define TRIANGLE_WORDS (2u * LINE_WORDS)
 #define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
@@ -39,6 +45,10 @@
 #define TRIANGLE_TURNED 2u    // this times 1 << k: its edge k is stored from its corner k + 1 to its corner k
 #define TRIANGLE_EDGES 18u    // three: twice the address of an edge, plus 1 if the triangle is its second
 #define TRIANGLE_VERTICES 21u // three: the address of a vertex that it owns and that spheres may touch, else 0
+// A sphere beside the triangle may touch an edge or vertex of it only if it is beside it by at most this times its height
+// above it. ANY_WEDGE: there is no such limit.
+#define TRIANGLE_WEDGE 24u
+#define ANY_WEDGE -1.0f
 
 #define EDGE_WORDS LINE_WORDS
 #define EDGE_FROM 0u    // m: its first end

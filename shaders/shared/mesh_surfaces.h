@@ -16,19 +16,10 @@
 #define GROOVE_LENGTH 0.75f  // radii from the edge, across it
 #define GROOVE_SPREAD 0.25f  // of that, beyond the ends of the edge
 
-// The tests that come before the exact ones reach this many times as far, because numbers are rounded.
-#define REACH_MORE 1.001f
+#include "shared/mesh_tree.h"
 
-PRIVATE(real3, meshPoint)      // the centre of the sphere in the frame of the mesh when the visit began (m)
-PRIVATE(real3, meshStart)      // the same at the start of the substep
+PRIVATE(real3, meshStart)      // the centre of the sphere in the frame of the mesh at the start of the substep (m)
 PRIVATE(real3, meshVelocity)   // of the sphere relative to the mesh (m/s); 0 without look ahead
-PRIVATE(real, meshReach)       // the sphere may touch what is within this distance of its centre (m)
-PRIVATE(float, meshRounding)   // larger than rounding errors of places (m)
-PRIVATE(uints, clusterPlace)   // where the number of the next cluster is
-PRIVATE(uints, listsBehind)    // 1 if another list follows the present one
-PRIVATE(uints, trianglesAt)    // address of the first triangle of the present cluster
-PRIVATE(uints, trianglesLeft)  // bit k: the sphere visits triangle k of the cluster later
-PRIVATE(uints, nearTriangle)   // address of the triangle that the sphere visits next, or END_OF_LIST
 PRIVATE(uints, lastPatch)      // keys of the last two patches that the sphere met
 PRIVATE(uints, patchBefore)
 PRIVATE(real, nearestOutside)  // m: the nearest feature on whose free side the centre is
@@ -39,28 +30,32 @@ PRIVATE(mask, faceBack)
 PRIVATE(mask, closeLanes)      // lanes near the present triangle
 PRIVATE(mask, besideLanes)     // lanes near it that are beside it, neither above nor below
 PRIVATE(uint, featureKey)
+PRIVATE(mask, pendingLanes)    // lanes with a face that they have met and not yet visited
+PRIVATE(real4, pendingSurface)
+PRIVATE(uints, pendingKey)
 
-float meshReal(uint at) {
-    return uintBitsToFloat(obstacleLists[at]);
+// Visits the faces that lanes have met and not yet visited.
+void visitPending(Obstacle mesh) {
+    if (!anyLane(pendingLanes)) return;
+    visitSurface(pendingLanes, real3(pendingSurface), pendingSurface.w - sphereRadius, real(0.0f), mesh.material,
+                 mesh.surface, pendingKey);
+    pendingLanes = noLane();
 }
 
-vec3 meshVector(uint at) {
-    return vec3(meshReal(at), meshReal(at + 1u), meshReal(at + 2u));
-}
-
-// Returns the height above a plane (m). `plane`: the address of its normal and offset.
-ANY_REAL heightAbove(uint plane, ANY_REAL3 point) {
-    return point.x * meshReal(plane) + point.y * meshReal(plane + 1u) + point.z * meshReal(plane + 2u) -
-           meshReal(plane + 3u);
-}
-
-// Visits the feature that is in `featurePlace` and `featureAlong`.
+// Visits the feature that is in `featurePlace` and `featureAlong`. Faces at rest wait until the sphere meets its next
+// feature, so that lanes visit theirs together.
 RARE void visitFeature(mask where, Obstacle mesh, uint part) {
+    if (LANES > 1u && anyLane(where && pendingLanes)) visitPending(mesh);
     real4 surface = surfaceAt(mesh, part, spherePoint);
-    if (HAS(ACCURATE))
+    if (HAS(ACCURATE)) {
         gather(surface, mesh, featureKey);
-    else
+    } else if (LANES > 1u && part < MESH_EDGE && !isMoving(mesh)) {
+        pendingLanes = pendingLanes || where;
+        pendingSurface = select(where, surface, pendingSurface);
+        pendingKey = select(where, uints(featureKey), pendingKey);
+    } else {
         visitPart(where, mesh, part, surface, part >= MESH_EDGE, mesh.surface, featureKey);
+    }
 }
 
 // Finds which side of a triangle the spheres meet that are above or below it. `above`: the height of the centre (m).
@@ -218,99 +213,6 @@ void visitTriangle(mask where, Obstacle mesh, uint triangle, bool leaves) {
     }
 }
 
-// Returns the triangles of a cluster that a sphere may reach, and some that it does not: bit k for triangle k.
-uint trianglesNear(uint cluster, vec3 point, float reach) {
-    vec3 normal = meshVector(cluster + CLUSTER_NORMAL);
-    vec3 across = meshVector(cluster + CLUSTER_ACROSS);
-    vec3 d = point - meshVector(cluster + CLUSTER_CENTRE);
-    float height = dot3(d, normal);
-    float gap = max(max(meshReal(cluster + CLUSTER_LOW) - height, height - meshReal(cluster + CLUSTER_HIGH)), 0.0f);
-    if (!(gap < reach)) return 0u;
-    float steps = meshReal(cluster + CLUSTER_STEPS);
-    float room = sqrt((reach - gap) * (reach + gap)) * REACH_MORE * steps;
-    float u = dot3(d, across) * steps + STEPS_TO_CENTRE;
-    float v = dot3(d, cross3(normal, across)) * steps + STEPS_TO_CENTRE;
-    if (abs(u - STEPS_TO_CENTRE) > STEPS_TO_CENTRE + room || abs(v - STEPS_TO_CENTRE) > STEPS_TO_CENTRE + room)
-        return 0u;
-    uint near = 0u;
-    for (uint k = 0u; k < obstacleLists[cluster + CLUSTER_COUNT]; ++k) {
-        uint box = obstacleLists[cluster + CLUSTER_BOXES + k];
-        bool isNear = u + room > float(box & 255u) && u - room < float((box >> 8u) & 255u) &&
-                      v + room > float((box >> 16u) & 255u) && v - room < float(box >> 24u);
-        near = near | (isNear ? 1u << k : 0u);
-    }
-    return near;
-}
-
-// Returns false if a sphere certainly reaches no part of a triangle.
-bool mayReachTriangle(uint triangle, vec3 point, float reach) {
-    float above = max(abs(heightAbove(triangle + TRIANGLE_NORMAL, point)) - meshRounding, 0.0f);
-    if (!(above < reach)) return false;
-    float room = sqrt((reach - above) * (reach + above)) + meshRounding;
-    return heightAbove(triangle + TRIANGLE_SIDES, point) < room &&
-           heightAbove(triangle + TRIANGLE_SIDES + 4u, point) < room &&
-           heightAbove(triangle + TRIANGLE_SIDES + 8u, point) < room;
-}
-
-// Prefetches what findNextTriangle() reads first of the clusters in the first list of a lane.
-void expectClusters(uint lane, Obstacle mesh) {
-    for (uint place = LANE_OF(clusterPlace, lane); obstacleLists[place] != END_OF_LIST; ++place) {
-        PREFETCH(obstacleLists[mesh.clustersAt + obstacleLists[place] * CLUSTER_WORDS])
-    }
-}
-
-// Finds the next triangle that the sphere of a lane visits. Each sphere has its own way through the lists: where
-// triangles are small, spheres beside each other share few of them.
-void findNextTriangle(uint lane, Obstacle mesh) {
-    vec3 point = LANE_OF(meshPoint, lane);
-    float reach = LANE_OF(meshReach, lane) * REACH_MORE;
-    uint place = LANE_OF(clusterPlace, lane);
-    uint first = LANE_OF(trianglesAt, lane);
-    uint left = LANE_OF(trianglesLeft, lane);
-    uint triangle = END_OF_LIST;
-    while (triangle == END_OF_LIST) {
-        if (left != 0u) {
-            uint next = first + uint(findLSB(left)) * TRIANGLE_WORDS;
-            left = left & (left - 1u);
-            if (!mayReachTriangle(next, point, reach)) continue;
-            triangle = next;
-            for (uint k = 0u; k < 3u; ++k) {
-                PREFETCH(obstacleLists[obstacleLists[triangle + TRIANGLE_EDGES + k] / 2u])
-            }
-            continue;
-        }
-        uint number = obstacleLists[place];
-        place += 1u;
-        if (number == END_OF_LIST) {
-            if (LANE_OF(listsBehind, lane) == 0u) break;
-            LANE_OF(listsBehind, lane) = 0u;
-            continue;
-        }
-        uint cluster = mesh.clustersAt + number * CLUSTER_WORDS;
-        left = trianglesNear(cluster, point, reach);
-        first = obstacleLists[cluster + CLUSTER_TRIANGLES];
-        for (uint more = left; more != 0u; more &= more - 1u) {
-            PREFETCH(obstacleLists[first + uint(findLSB(more)) * TRIANGLE_WORDS])
-            PREFETCH(obstacleLists[first + uint(findLSB(more)) * TRIANGLE_WORDS + LINE_WORDS])
-        }
-    }
-    LANE_OF(clusterPlace, lane) = place;
-    LANE_OF(trianglesAt, lane) = first;
-    LANE_OF(trianglesLeft, lane) = left;
-    LANE_OF(nearTriangle, lane) = triangle;
-}
-
-// Returns the lists near the cells in which the centres are; the empty list for others.
-uints clustersNear(mask where, Obstacle mesh) {
-    real x = floor((meshPoint.x - mesh.a.x) * mesh.a.w);
-    real y = floor((meshPoint.y - mesh.a.y) * mesh.a.w);
-    real z = floor((meshPoint.z - mesh.a.z) * mesh.a.w);
-    mask covered = where && x >= 0.0f && y >= 0.0f && z >= 0.0f && x < mesh.b.x && y < mesh.b.y && z < mesh.b.z;
-    uints cell = wholeOf(select(covered, x + (y + z * mesh.b.y) * mesh.b.x, real(0.0f)));
-    uints list = ROW(obstacleLists, cell + mesh.cellsAt);
-    return select(covered && (list >> 31u) == 0u, list, uints(NO_OBSTACLES));
-}
-
 void visitMesh(mask where, Obstacle mesh) {
     meshPoint = intoFrame(mesh, spherePoint);
     meshVelocity = velocityAlong();
@@ -324,20 +226,15 @@ void visitMesh(mask where, Obstacle mesh) {
     lastPatch = uints(END_OF_LIST);
     patchBefore = uints(END_OF_LIST);
     wayOut = uints(END_OF_LIST);
+    pendingLanes = noLane();
+    pendingSurface = real4(0.0f, 0.0f, 0.0f, 0.0f);
+    pendingKey = uints(0u);
     nearestOutside = real(FAR_AWAY);
     nearestInside = real(-FAR_AWAY);
-    clusterPlace = clustersNear(where, mesh);
-    mask listed = clusterPlace != NO_OBSTACLES;
-    listsBehind = select(listed && meshReach > NEAR_SHARE * mesh.b.w, uints(1u), uints(0u));
-    trianglesAt = uints(0u);
-    trianglesLeft = uints(0u);
-    nearTriangle = uints(END_OF_LIST);
-    if (LANES > 1u) {
-        EACH_LANE_NUMBER(listed, expectClusters, mesh)
-    }
-    EACH_LANE_NUMBER(listed, findNextTriangle, mesh)
+    beginToLook(where, mesh);
     bool leaves = false;
     while (true) {
+        look(mesh);
         uint triangle = leastOf(nearTriangle);
         if (triangle == END_OF_LIST) {
             if (leaves) break;
@@ -351,8 +248,9 @@ void visitMesh(mask where, Obstacle mesh) {
         if (leaves) {
             nearTriangle = select(here, uints(END_OF_LIST), nearTriangle);
         } else {
-            EACH_LANE_NUMBER(here, findNextTriangle, mesh)
+            EACH_LANE_NUMBER(here, takeNext, 0u)
         }
     }
+    if (LANES > 1u) visitPending(mesh);
     if (HAS(ACCURATE)) visitGathered(mesh);
 }

@@ -1,7 +1,7 @@
 // The surfaces near a sphere: the faces of the bounds, and the obstacles near it. The includer has the PRIVATE variables
 // `spherePoint` (m), which visits may move, and `sphereRadius` (m). It defines
 //   `void visitSurface(mask where, real3 normal, real separation, real recession, uint wallMaterial, uint surface,
-//   uint key)`,
+//   uints key)`,
 // all that it sees of a surface, in lanes `where`. `normal` points to the sphere. `separation` is the gap between sphere
 // and surface (m), negative if they overlap. `recession` is the speed at which a curved surface recedes from the sphere
 // while it moves along it (m/s), negative inside a hollow. (They are no struct, because `precise` spreads through its

@@ -162,15 +162,14 @@ SPHERULE_INLINE uints operator>>(uints a, std::uint32_t by) {
     return uints(a.words() >> by);
 }
 
-SPHERULE_INLINE mask operator==(const uints& a, std::uint32_t b) {
+SPHERULE_INLINE mask operator==(const uints& a, const uints& b) {
 #if defined(SPHERULE_AVX512)
-    const auto all = reinterpret_cast<__m512i>(a.words());
-    return mask(_mm512_cmpeq_epi32_mask(all, _mm512_set1_epi32(static_cast<int>(b))));
+    return mask(_mm512_cmpeq_epi32_mask(reinterpret_cast<__m512i>(a.words()), reinterpret_cast<__m512i>(b.words())));
 #else
-    return mask(reinterpret_cast<Ints>(a.words() == b - Words{}));
+    return mask(reinterpret_cast<Ints>(a.words() == b.words()));
 #endif
 }
-SPHERULE_INLINE mask operator!=(const uints& a, std::uint32_t b) {
+SPHERULE_INLINE mask operator!=(const uints& a, const uints& b) {
     return !(a == b);
 }
 SPHERULE_INLINE std::uint32_t leastOf(const uints& a) {
