@@ -22,15 +22,12 @@ BUFFER(writeonly, uint, bundles)
 #define ALL_HASHED 0xffffu        // HASHED_BATCHES bits
 #define ALONE BATCHES             // the batch of a pair for which none is free
 
+#define OTHER_ITERATIONS 1024u        // more than all loops have that do not visit candidates
+#define ITERATIONS_ALONE 8u           // more than the loops of a solver have for a pair that comes alone
 #define PLACES (2u * (BATCHES + 1u))  // of a block, by batch: close pairs, far pairs
 
 SHARED(uint, places[BLOCKS_PER_BUNDLE * PLACES])  // by block: first the number of its pairs, then the next place
-SHARED(uint, pairsOfBlock[BLOCKS_PER_BUNDLE])
-SHARED(uint, total)
-SHARED(uint, start)
-SHARED(bool, fits)
-SHARED(bool, cutShort)
-PRIVATE(uint, visited)  // candidates
+SHARED(bool, isListed)
 
 uint hashOf(uint a, uint b) {
     uint ia = idOf(idAndMaterial[a]);
@@ -81,7 +78,6 @@ void visitCandidates(uint bundle, uint part, bool copying) {
     uint level = levelOfPhase();
     uvec4 cells = cellsOf(level);
     BlockPlace block = blockOfBundle(bundle, level, part);
-    visited = 0u;
     for (uint group = 0u; group < 8u && block.exists; ++group) {
         uvec2 range = groupRange[groupOfBlock(cells, block, group)];
         for (uint k = firstCandidate(range); k < firstCandidate(range) + candidatesOf(range); ++k) {
@@ -89,29 +85,54 @@ void visitCandidates(uint bundle, uint part, bool copying) {
                 copyToPlace(part, k);
             else
                 chooseBatch(part, k);
-            visited = visited + 1u;
         }
     }
 }
 
-// Finds room for the pairs, and where the pairs of each batch and block begin.
-void divideRoom(uint words) {
-    total = 0u;
-    for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) total = total + pairsOfBlock[part];
-    start = total == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], total + PAIR_PADDING);
-    fits = total > 0u && total + PAIR_PADDING <= params.pairCapacity &&
-           start <= params.pairCapacity - total - PAIR_PADDING;
-    cutShort = false;
-    if (!fits) return;
-    uint next = start;
+// Returns true if the device would end the loops over the candidates early. The threads of the blocks are in one vector:
+// an iteration of one of them is one of all.
+bool hasTooManyCandidates(uint bundle) {
+    if (LOOP_LIMIT == NO_LOOP_LIMIT) return false;
+    uint level = levelOfPhase();
+    uvec4 cells = cellsOf(level);
+    uint candidatesInTurn = 0u;
+    for (uint group = 0u; group < 8u; ++group) {
+        uint most = 0u;
+        for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) {
+            BlockPlace block = blockOfBundle(bundle, level, part);
+            if (block.exists) most = max(most, candidatesOf(groupRange[groupOfBlock(cells, block, group)]));
+        }
+        candidatesInTurn = candidatesInTurn + most;
+    }
+    return candidatesInTurn > (LOOP_LIMIT - OTHER_ITERATIONS) / 2u;  // they are visited twice
+}
+
+// Finds room for the pairs, and where the pairs of each batch and block begin. Returns false if there is no list.
+bool divideRoom(uint words) {
+    uint total = 0u;
+    uint alone = 0u;  // pairs that come one by one
+    for (uint at = 0u; at < BLOCKS_PER_BUNDLE * PLACES; ++at) {
+        total = total + places[at];
+        if (at % PLACES / 2u == ALONE) alone = alone + places[at];
+    }
+    if (total == 0u) return false;
+    if (LOOP_LIMIT != NO_LOOP_LIMIT && alone > LOOP_LIMIT / ITERATIONS_ALONE) {
+        atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
+        return false;
+    }
+    uint start = atomicAdd(counters[COUNTER_PAIRS], total + PAIR_PADDING);
+    if (total + PAIR_PADDING > params.pairCapacity || start > params.pairCapacity - total - PAIR_PADDING) return false;
+    bundles[words] = start;
+    bundles[words + 1u] = total;
     for (uint place = 0u; place < PLACES; ++place) {
         for (uint at = place; at < BLOCKS_PER_BUNDLE * PLACES; at += PLACES) {
             uint count = places[at];
-            places[at] = next;
-            next = next + count;
+            places[at] = start;
+            start = start + count;
         }
-        if (place % 2u != 0u) bundles[words + 4u + place / 2u] = next;
+        if (place % 2u != 0u) bundles[words + 4u + place / 2u] = start;
     }
+    return true;
 }
 
 BUNDLE_KERNEL(bundlesOfPhase()) {
@@ -123,23 +144,17 @@ BUNDLE_KERNEL(bundlesOfPhase()) {
         bundles[words + 2u] = 1u;
     }
     if (counters[COUNTER_CANDIDATES] > params.pairCapacity) return;  // list_fit.comp
+    if (hasTooManyCandidates(bundle)) {
+        if (FIRST_THREAD) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
+        return;
+    }
     for (uint part = THREAD; part < BLOCKS_PER_BUNDLE; part += THREADS) {
         for (uint place = 0u; place < PLACES; ++place) places[part * PLACES + place] = 0u;
         visitCandidates(bundle, part, false);
-        pairsOfBlock[part] = visited;
     }
     BARRIER
-    if (FIRST_THREAD) divideRoom(words);
+    if (FIRST_THREAD) isListed = divideRoom(words);
     BARRIER
-    if (!fits) return;
-    for (uint part = THREAD; part < BLOCKS_PER_BUNDLE; part += THREADS) {
-        visitCandidates(bundle, part, true);
-        if (visited != pairsOfBlock[part]) cutShort = true;
-    }
-    BARRIER
-    if (!FIRST_THREAD) return;
-    // As in list_build.comp: if the loops have ended early, places of the list are not written.
-    bundles[words] = start;
-    bundles[words + 1u] = cutShort ? 0u : total;
-    if (cutShort) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
+    if (!isListed) return;
+    for (uint part = THREAD; part < BLOCKS_PER_BUNDLE; part += THREADS) visitCandidates(bundle, part, true);
 }

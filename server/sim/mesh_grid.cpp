@@ -65,14 +65,11 @@ class NearCells {
         }
         const std::uint32_t t = tree_.order[node.first];
         const glm::dvec3 normal = glm::abs(mesh_.normal(t));
-        const double slab = 1.001 * (reach + glm::dot(normal, half)) + flatness();
+        const double slab = 1.001 * (reach + glm::dot(normal, half));
         if (std::abs(glm::dot(mesh_.normal(t), centre - mesh_.corner(t, 0))) > slab) return false;
         const glm::dvec3 nearest = scene::nearestOn(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), centre);
         return glm::distance(centre, nearest) <= 1.001 * (reach + glm::length(half));
     }
-
-    // The corners of a triangle lie near the plane of its patch.
-    [[nodiscard]] double flatness() const { return 1e-5 * std::max({mesh_.half.x, mesh_.half.y, mesh_.half.z}); }
 
     [[nodiscard]] glm::uvec3 cellAt(const glm::dvec3& place) const {
         const glm::dvec3 cell = glm::floor((place - grid_.low) / grid_.width);

@@ -33,6 +33,7 @@ namespace {
 constexpr double reachInRadii = 1.75;
 
 constexpr double leastCosineOfWedge = 0.2;    // flatter ones have no limit: TRIANGLE_WEDGE
+constexpr double mostTilt = 1e-4;             // of an edge against the plane of its patch
 constexpr std::size_t mostEdgesOfWedge = 12;  // of a vertex
 
 using Words = std::vector<std::uint32_t>;
@@ -45,11 +46,23 @@ void put(Words& words, const glm::dvec3& v) {
     for (int axis = 0; axis < 3; ++axis) put(words, v[axis]);
 }
 
+// Returns the margin of a mesh (m): see mesh_layout.h. `reach`: the distance at which spheres look for triangles (m).
+double marginOf(const scene::Mesh& mesh, double reach) {
+    double bend = 0;
+    for (std::uint32_t t = 0; t < mesh.corners.size(); ++t) {
+        const scene::Mesh::Patch& patch = mesh.patches[mesh.patchOf[t]];
+        for (unsigned k = 0; k < 3; ++k)
+            bend = std::max(bend, std::abs(glm::dot(patch.normal, mesh.corner(t, k)) - patch.offset));
+    }
+    return 2 * bend + 8e-6 * (mesh.half.x + mesh.half.y + mesh.half.z + 3 * reach);
+}
+
 // Writes one mesh. `base`: the address of words[0]. `nextKey`: the first key that no contact has yet.
 class MeshWriter {
   public:
-    MeshWriter(const scene::Mesh& mesh, bool smooth, Words& words, std::uint32_t base, std::uint32_t& nextKey)
-        : mesh_(mesh), smooth_(smooth), words_(words), base_(base), nextKey_(nextKey) {}
+    MeshWriter(const scene::Mesh& mesh, bool smooth, double margin, Words& words, std::uint32_t base,
+               std::uint32_t& nextKey)
+        : mesh_(mesh), smooth_(smooth), margin_(margin), words_(words), base_(base), nextKey_(nextKey) {}
 
     // Sets the addresses of the row.
     void write(const MeshTree& tree, const MeshGrid& grid, MeshTables::Row& row) {
@@ -61,7 +74,10 @@ class MeshWriter {
         writeVertices();
         const std::uint32_t trianglesAt = nextLine();
         for (const std::uint32_t triangle : tree.order) writeTriangle(triangle);
-        row.nodesAt = nextLine();
+        nextLine();
+        words_.resize(words_.size() + LINE_WORDS - 1);
+        put(words_, margin_);
+        row.nodesAt = here();
         writeNodes(tree, trianglesAt);
         row.cellsAt = here();
         writeCells(grid);
@@ -219,13 +235,15 @@ class MeshWriter {
         double cosine = 1;  // of the largest angle between the normal and such a direction
         for (const std::uint32_t word : mesh_.edgesOf[t]) {
             const scene::Mesh::Edge& edge = mesh_.edges[word / 2];
-            if (grooveAt(edge) != 0) return double{ANY_WEDGE};
+            const glm::dvec3 along =
+                glm::normalize(mesh_.vertices[edge.vertices[1]] - mesh_.vertices[edge.vertices[0]]);
+            if (grooveAt(edge) != 0 || std::abs(glm::dot(along, normal)) > mostTilt) return double{ANY_WEDGE};
             if (edge.meets && word % 2 == 0)
                 cosine = std::min(cosine, glm::dot(normal, mesh_.normal(edge.triangles[1])));
         }
         for (const std::uint32_t corner : mesh_.corners[t])
             if (owner_[corner] == t && vertexAt_[corner] != 0) cosine = std::min(cosine, coneOf(corner, normal));
-        return cosine > leastCosineOfWedge ? std::sqrt(1 - cosine * cosine) / cosine : double{ANY_WEDGE};
+        return cosine > leastCosineOfWedge ? std::sqrt(1 - cosine * cosine) / cosine + 2 * mostTilt : double{ANY_WEDGE};
     }
 
     // Returns the cosine of the largest angle between a normal and a direction in the cone of a vertex. It is the angle
@@ -305,6 +323,7 @@ class MeshWriter {
 
     const scene::Mesh& mesh_;
     bool smooth_;
+    double margin_;
     Words& words_;
     std::uint32_t base_;
     std::uint32_t& nextKey_;
@@ -332,10 +351,11 @@ std::shared_ptr<const MeshTables> made(const scene::Scene& scene, double largest
             // A scene may have no spheres yet.
             const double reach = std::max(reachInRadii * largestRadius, 1e-4 * glm::length(mesh->half));
             const MeshTree tree = MeshTree::of(*mesh, reach);
-            const MeshGrid grid = MeshGrid::around(*mesh, tree, reach, double{NEAR_SHARE} * reach);
+            const double margin = marginOf(*mesh, reach);
+            const MeshGrid grid = MeshGrid::around(*mesh, tree, reach + margin, double{NEAR_SHARE} * reach + margin);
             row.a = glm::vec4(glm::dvec4(grid.low, 1 / grid.width));
             row.b = glm::vec4(glm::dvec4(grid.cells, grid.reach));
-            MeshWriter(*mesh, smooth, tables->words, base, nextKey).write(tree, grid, row);
+            MeshWriter(*mesh, smooth, margin, tables->words, base, nextKey).write(tree, grid, row);
         }
         row.endKey = nextKey;
         tables->rows.push_back(row);

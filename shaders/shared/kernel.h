@@ -7,6 +7,8 @@
 //   HAS(FEATURE)                Is true if the scene requires the feature: a constant in GLSL, a value in C++.
 //   PREFETCH(element)           Announces that an element of a buffer is read soon. It has an effect on CPUs only.
 //   PRIVATE(type, name)         Declares a variable of the invocation that functions share.
+//   LOOP_LIMIT                  The device ends all loops of an invocation after this number of iterations together.
+//                               NO_LOOP_LIMIT: it does not.
 //
 // A kernel that begins with one of these macros does the same work for several lanes at once. GLSL has one lane per
 // invocation; C++ has 1, 4, 8 or 16. Results do not depend on the number of lanes.
@@ -65,6 +67,10 @@
 layout(local_size_x = LOCAL_SIZE) in;
 layout(location = 0) uniform uint phase;
 
+#define NO_LOOP_LIMIT 0xffffffffu
+#ifndef LOOP_LIMIT
+#define LOOP_LIMIT NO_LOOP_LIMIT
+#endif
 #define PRIVATE(type, name) type name;
 #define PREFETCH(element)
 #define HAS(feature) (feature)

@@ -14,10 +14,12 @@
 // Nodes, triangles and edges fill whole lines of a cache.
 #define LINE_WORDS 16u
 
-// `nodesAt` is the address of the nodes (sim/mesh_tree.h). A group has leaves as
-// children, and a leaf has triangles. A node is between two planes. Across their normal, a box of its own is around each of its children. The boxes
-// are on a grid of 127 by 127 steps around the centre. The boxes of four children are in four words, a byte for each
-// child: lowest u, highest u, lowest v, highest v. The highest ones have TOP_BITS in addition.
+// `nodesAt` is the address of the nodes (sim/mesh_tree.h). The word before it has the margin of the mesh (m): more than
+// rounding errors of places, and more than corners of triangles lie beside the planes of their patches.
+// A group has leaves as children, and a leaf has triangles. A node is between two planes. Across their normal, a box of its
+// own is around each of its children. The boxes are on a grid of 127 by 127 steps around the centre. The boxes of four
+// children are in four words, a byte for each child: lowest u, highest u, lowest v, highest v. The highest ones have
+// TOP_BITS in addition.
 #define NODE_WORDS (2u * LINE_WORDS)
 #define NODE_NORMAL 0u    // of unit length
 #define NODE_LOW 3u       // m: the two planes, from the centre along the normal

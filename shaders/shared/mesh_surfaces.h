@@ -96,7 +96,7 @@ void findNear(mask where, uint triangle) {
     // Only near an edge or beyond it, the place is compared with the edge itself.
     mask inside = closeLanes;
     for (uint k = 0u; k < 3u; ++k)
-        inside = inside && heightAbove(triangle + TRIANGLE_SIDES + 4u * k, meshPoint) < -meshRounding;
+        inside = inside && heightAbove(triangle + TRIANGLE_SIDES + 4u * k, meshPoint) < -meshMargin;
     bool allInside = !anyLane(closeLanes && !inside);
     for (uint k = 0u; k < 3u && !allInside; ++k) {
         uint word = obstacleLists[triangle + TRIANGLE_EDGES + k];
@@ -222,7 +222,7 @@ void visitMesh(mask where, Obstacle mesh) {
     meshReach = sphereRadius * (1.0f + TOUCHES) + sqrt(dot3(meshVelocity, meshVelocity)) * params.substep;
     if (HAS(ACCURATE))
         meshReach = sphereRadius * sqrt(1.0f + GROOVE_LENGTH * GROOVE_LENGTH * (1.0f + GROOVE_SPREAD * GROOVE_SPREAD));
-    meshRounding = (mesh.b.x + mesh.b.y + mesh.b.z) / mesh.a.w * 1.0e-6f;
+    meshMargin = meshReal(mesh.nodesAt - 1u);
     lastPatch = uints(END_OF_LIST);
     patchBefore = uints(END_OF_LIST);
     wayOut = uints(END_OF_LIST);

@@ -12,7 +12,7 @@
 
 PRIVATE(real3, meshPoint)      // the centre of the sphere in the frame of the mesh when the visit began (m)
 PRIVATE(real, meshReach)       // the sphere may touch what is within this distance of its centre (m)
-PRIVATE(float, meshRounding)   // larger than rounding errors of places (m)
+PRIVATE(float, meshMargin)     // larger than errors of places (m)
 PRIVATE(uints, looking)        // 1 while the sphere looks for triangles
 PRIVATE(uints, nodePlace)      // where the number of the next node is, or END_OF_LIST
 PRIVATE(uints, listsBehind)    // 1 if another list follows the present one
@@ -53,10 +53,10 @@ uint childrenNear(uint node, vec3 point, float reach) {
     float v = dot3(d, cross3(normal, across)) * steps + STEPS_TO_CENTRE;
     if (abs(u - STEPS_TO_CENTRE) > STEPS_TO_CENTRE + room || abs(v - STEPS_TO_CENTRE) > STEPS_TO_CENTRE + room)
         return 0u;
-    uint lowU = uint(max(u - room, 0.0f)) * FOUR_BYTES;
-    uint lowV = uint(max(v - room, 0.0f)) * FOUR_BYTES;
-    uint highU = uint(min(u + room, ALL_STEPS)) * FOUR_BYTES | TOP_BITS;
-    uint highV = uint(min(v + room, ALL_STEPS)) * FOUR_BYTES | TOP_BITS;
+    uint lowU = uint(clamp(u - room, 0.0f, ALL_STEPS)) * FOUR_BYTES;
+    uint lowV = uint(clamp(v - room, 0.0f, ALL_STEPS)) * FOUR_BYTES;
+    uint highU = uint(clamp(u + room, 0.0f, ALL_STEPS)) * FOUR_BYTES | TOP_BITS;
+    uint highV = uint(clamp(v + room, 0.0f, ALL_STEPS)) * FOUR_BYTES | TOP_BITS;
     // The top bit of a difference stays if the first byte, less its own top bit, is not less than the second one.
     uint near = 0u;
     uint count = obstacleLists[node + NODE_COUNT];
@@ -93,24 +93,23 @@ void findTriangles(uint lane, vec3 point, float reach) {
     uint first = LANE_OF(trianglesAt, lane);
     uint left = LANE_OF(trianglesLeft, lane);
     uint found = LANE_OF(trianglesFound, lane);
-    float margin = 4.0f * meshRounding;
     while (left != 0u && found < MOST_FOUND) {
         uint triangle = first + uint(findLSB(left)) * TRIANGLE_WORDS;
         left = left & (left - 1u);
         float above = heightAbove(triangle + TRIANGLE_NORMAL, point);
-        float gap = max(abs(above) - margin, 0.0f);
+        float gap = max(abs(above) - meshMargin, 0.0f);
         if (!(gap < reach)) continue;
         float beside = max(max(heightAbove(triangle + TRIANGLE_SIDES, point),
                                heightAbove(triangle + TRIANGLE_SIDES + 4u, point)),
                            heightAbove(triangle + TRIANGLE_SIDES + 8u, point));
-        if (!(beside < sqrt((reach - gap) * (reach + gap)) + margin)) continue;
-        if (beside > margin) {
+        if (!(beside < sqrt((reach - gap) * (reach + gap)) + meshMargin)) continue;
+        if (beside > meshMargin) {
             float wedge = meshReal(triangle + TRIANGLE_WEDGE);
-            if (wedge != ANY_WEDGE && beside > wedge * (above + margin) + margin) continue;
+            if (wedge != ANY_WEDGE && beside > wedge * (above + meshMargin) + meshMargin) continue;
         }
         LANE_OF(nearTriangles[found], lane) = triangle;
         found = found + 1u;
-        if (beside < -margin) continue;  // findNear() reads no edge
+        if (beside < -meshMargin) continue;  // findNear() reads no edge
         for (uint k = 0u; k < 3u; ++k) {
             PREFETCH(obstacleLists[obstacleLists[triangle + TRIANGLE_EDGES + k] / 2u])
         }

@@ -33,7 +33,13 @@ async function pressAt(share, of = page) {
 }
 
 const showsPast = (of = page) => when(of, () => spherule.session.replay?.source === "past" && !spherule.seeking);
-const showsPresent = (of = page) => when(of, () => spherule.session.replay === undefined);
+// The button is disabled when the timeline has its place again.
+const showsPresent = (of = page) =>
+  when(
+    of,
+    (button) => spherule.session.replay === undefined && document.querySelector(button)?.disabled,
+    control("present"),
+  );
 
 beforeEach(async () => {
   if (await page.evaluate(() => spherule.session.replay !== undefined)) await page.click(control("present"));

@@ -247,7 +247,7 @@ void expectListsCutShort(const scene::Scene& scene, const scene::Scene& crowd) {
     for (const std::string choice : {"software", "cpu:2x8"}) {
         const auto device = compute::openDevice(choice).value();
         const auto simulation = simulate(scene, *device);
-        for (int k = 0; k < 3; ++k) {                 // the lists grow in the first step
+        for (int k = 0; k < 6; ++k) {                 // the lists grow in the first steps
             simulation->upload(sim::stateOf(crowd));  // with the overlaps that a new simulation removes
             ASSERT_TRUE(simulation->step());
         }
@@ -280,17 +280,33 @@ TEST(CrowdOnDevices, ThatTheSoftwareRendererCannotListIsReported) {
     expectListsCutShort(scene, scene);
 }
 
-// About ten spheres in each cell of a layer of blocks (shared/bundles.h): no group has too many pairs, a bundle has.
-TEST(CrowdOnDevices, ThatTheSoftwareRendererCannotOrderIsReported) {
-    scene::Scene apart = crowdBox(2.6);  // m: 16 cells along each axis
+// Clusters of spheres that all touch each other, each in the middle of a group of cells (shared/group.h).
+void expectClustersCutShort(int spheresOfCluster) {
+    constexpr double cell = 0.1625;  // m
+    scene::Scene apart = crowdBox(16 * cell);
     for (int x = 0; x < 21; ++x)
         for (int y = 0; y < 21; ++y)
             for (int z = 0; z < 21; ++z) measure::addSphere(apart, 0.123 * (glm::dvec3(x, y, z) - 10.0), 0.06);
     scene::Scene crowd = apart;
     scene::Random random(31);
-    for (scene::Sphere& sphere : crowd.spheres)
-        sphere.position = {random.uniform(-1.3, 1.3), random.uniform(-1.3, -0.7), random.uniform(-1.3, 1.3)};
+    int cluster = 0;
+    for (std::size_t k = 0; k < crowd.spheres.size(); ++k) {
+        if (k > 0 && k % static_cast<std::size_t>(spheresOfCluster) == 0) ++cluster;
+        const glm::dvec3 group(cluster % 8, cluster / 64, cluster / 8 % 8);
+        const auto aside = [&] { return random.uniform(-0.03, 0.03); };
+        crowd.spheres[k].position = cell * (2.0 * group - 7.0) + glm::dvec3(aside(), aside(), aside());
+    }
     expectListsCutShort(apart, crowd);
+}
+
+// No group has too many pairs, a block has (shared/bundles.h).
+TEST(CrowdOnDevices, ThatTheSoftwareRendererCannotOrderIsReported) {
+    for (const int spheresOfCluster : {104, 130}) expectClustersCutShort(spheresOfCluster);
+}
+
+// No block has too many pairs, but a bundle has too many that come one by one.
+TEST(CrowdOnDevices, ThatTheSoftwareRendererCannotSolveIsReported) {
+    for (const int spheresOfCluster : {54, 72}) expectClustersCutShort(spheresOfCluster);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Bits, testing::Values(scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate),

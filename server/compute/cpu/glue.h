@@ -245,6 +245,8 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     }                                  \
     void kernelBody([[maybe_unused]] uint invocation)
 
+#define NO_LOOP_LIMIT 0xffffffffU
+#define LOOP_LIMIT NO_LOOP_LIMIT
 #define RARE __attribute__((noinline, flatten))
 #define THREAD firstThread
 #define THREADS 1U

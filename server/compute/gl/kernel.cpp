@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <utility>
+#include <vector>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -10,6 +11,8 @@
 
 namespace spherule::compute::gl {
 namespace {
+
+constexpr const char* mesaLoopLimit = "65535u";  // LP_MAX_TGSI_LOOP_ITERATIONS of llvmpipe
 
 std::string shaderLog(GLuint shader) {
     GLint length = 0;
@@ -55,7 +58,9 @@ GLuint bindingOf(GLuint program, GLenum interface, GLuint index) {
 Result<std::unique_ptr<Kernel>> GlKernel::create(const std::shared_ptr<Context>& context, const SourceSet& sources,
                                                  std::string_view file, std::span<const Define> defines) {
     context->use();
-    auto source = expandSource(sources, file, defines);
+    std::vector<Define> all(defines.begin(), defines.end());
+    if (context->software()) all.push_back({"LOOP_LIMIT", mesaLoopLimit});
+    auto source = expandSource(sources, file, all);
     if (!source) return tl::unexpected(source.error());
     std::unique_ptr<GlKernel> kernel(new GlKernel(context, std::string(file)));
     kernel->declared_ = std::move(source->buffers);
