@@ -32,7 +32,7 @@ namespace {
 // half of it in a substep.
 constexpr double reachInRadii = 1.75;
 
-constexpr double leastCosineOfWedge = 0.2;    // flatter ones have no limit: TRIANGLE_WEDGE
+constexpr double leastCosineOfWedge = 0.2;    // wider ones have no limit: TRIANGLE_WEDGE
 constexpr double mostTilt = 1e-4;             // of an edge against the plane of its patch
 constexpr std::size_t mostEdgesOfWedge = 12;  // of a vertex
 
@@ -211,7 +211,7 @@ class MeshWriter {
             // A needle may be folded back onto the patch that it joined. Then its third corner is outside.
             const glm::dvec3 away = awayFrom(t, mesh_.edgesOf[t][k] / 2);
             const double third = glm::dot(away, mesh_.corner(t, (k + 2) % 3) - mesh_.corner(t, k));
-            const bool folded = !(third < -rounding());
+            const bool folded = !(third < -1e-6 * glm::length(mesh_.half));
             put(words_, folded ? glm::dvec3(0) : away);
             put(words_, folded ? 0 : glm::dot(away, mesh_.corner(t, k)));
         }
@@ -270,16 +270,13 @@ class MeshWriter {
         return least;
     }
 
-    // Returns by how much planes and boxes of nodes are wider than their content at least (m): coordinates are float32.
-    [[nodiscard]] double rounding() const { return 1e-6 * glm::length(mesh_.half); }
-
     void writeNodes(const MeshTree& tree, std::uint32_t trianglesAt) {
         const std::uint32_t nodesAt = here();
         for (std::uint32_t number = 0; number < tree.nodes.size(); ++number) {
             const MeshTree::Node& node = tree.nodes[number];
             const auto triangles = std::span(tree.order).subspan(node.first, node.count);
             const bool isGroup = node.leaves > 0;
-            const MeshSlab slab(mesh_, triangles, node.centre(), rounding());
+            const MeshSlab slab(mesh_, triangles, node.centre(), margin_);
             const std::size_t begin = words_.size();
             put(words_, slab.axes[2]);
             put(words_, slab.low);

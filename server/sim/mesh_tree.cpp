@@ -90,8 +90,8 @@ MeshTree MeshTree::of(const scene::Mesh& mesh, double reach) {
 }
 
 MeshSlab::MeshSlab(const scene::Mesh& ofMesh, std::span<const std::uint32_t> triangles, const glm::dvec3& around,
-                   double rounding)
-    : mesh(ofMesh), centre(around) {
+                   double wider)
+    : mesh(ofMesh), centre(around), margin(wider) {
     glm::dvec3 normal(0);
     for (const std::uint32_t t : triangles) normal += mesh.normal(t);
     normal = glm::length(normal) > 0.1 ? glm::normalize(normal) : mesh.normal(triangles[0]);
@@ -102,17 +102,13 @@ MeshSlab::MeshSlab(const scene::Mesh& ofMesh, std::span<const std::uint32_t> tri
     const glm::dvec3 across = glm::normalize(glm::cross(axis, normal));
     axes = glm::dmat3(across, glm::cross(normal, across), normal);
     double extent = 0;
-    double bend = 0;  // of patches: the largest distance of a corner from the plane
     for (const std::uint32_t t : triangles)
         for (unsigned k = 0; k < 3; ++k) {
-            const scene::Mesh::Patch& patch = mesh.patches[mesh.patchOf[t]];
-            bend = std::max(bend, std::abs(glm::dot(patch.normal, mesh.corner(t, k)) - patch.offset));
             const glm::dvec3 corner = (mesh.corner(t, k) - centre) * axes;
             low = std::min(low, corner.z);
             high = std::max(high, corner.z);
             extent = std::max({extent, std::abs(corner.x), std::abs(corner.y)});
         }
-    margin = bend + rounding;
     low -= margin;
     high += margin;
     steps = double{STEPS_TO_CENTRE} / (1.001 * extent + 2 * margin);

@@ -39,14 +39,13 @@ struct MeshSlab {
     const scene::Mesh& mesh;
     glm::dvec3 centre;                                // m: of the grid, in the coordinates of the mesh
     glm::dmat3 axes{};                                // of the grid: u, v, and the normal of the planes
-    double margin = 0;                                // m: how much wider planes and boxes are
+    double margin;                                    // m: how much wider planes and boxes are
     double low = std::numeric_limits<double>::max();  // m: the planes, from the centre along the normal
     double high = -low;
     double steps = 0;  // of the grid (1/m)
 
-    // `rounding`: the margin for triangles that lie in the planes of their patches (m).
     MeshSlab(const scene::Mesh& mesh, std::span<const std::uint32_t> triangles, const glm::dvec3& centre,
-             double rounding);
+             double margin);
 
     // Returns the box around some of the triangles, in steps: lowest u, highest u, lowest v, highest v.
     [[nodiscard]] glm::uvec4 boxOf(std::span<const std::uint32_t> triangles) const;

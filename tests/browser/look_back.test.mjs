@@ -33,7 +33,7 @@ async function pressAt(share, of = page) {
 }
 
 const showsPast = (of = page) => when(of, () => spherule.session.replay?.source === "past" && !spherule.seeking);
-// The button is disabled when the timeline has its place again.
+// When the button is disabled, the page has drawn the timeline of the present.
 const showsPresent = (of = page) =>
   when(
     of,
