@@ -1,4 +1,4 @@
-// Counts the spheres of each cell. A sphere's rank is the count before it was added.
+// Finds the cell of each sphere, and counts the spheres of each cell. A sphere's rank is the count before it was added.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -11,7 +11,10 @@ PARAMETERS
 BUFFER(readonly, vec4, position)
 BUFFER(coherent, uint, cellStart)
 BUFFER(writeonly, uint, rankInCell)
+BUFFER(writeonly, uint, cellOfSphere)
 
 KERNEL(params.spheres) {
-    rankInCell[invocation] = atomicAdd(cellStart[cellOf(position[invocation])], 1u);
+    uint cell = cellOf(position[invocation]);
+    cellOfSphere[invocation] = cell;
+    rankInCell[invocation] = atomicAdd(cellStart[cell], 1u);
 }

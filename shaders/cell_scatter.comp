@@ -2,17 +2,12 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
-#include "shared/accessors.h"
-#include "shared/math.h"
-#include "shared/grid.h"
-#include "shared/bundles.h"
-#include "shared/cell_of.h"
 
-BUFFER(readonly, vec4, position)
+BUFFER(readonly, uint, cellOfSphere)  // another kernel might round the cell of a sphere at a border to the other side
 BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uint, rankInCell)
 BUFFER(writeonly, uint, cellOrder)
 
 KERNEL(params.spheres) {
-    cellOrder[cellStart[cellOf(position[invocation])] + rankInCell[invocation]] = invocation;
+    cellOrder[cellStart[cellOfSphere[invocation]] + rankInCell[invocation]] = invocation;
 }

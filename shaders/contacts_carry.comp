@@ -1,11 +1,8 @@
-// Before the lists are rebuilt: notes each contact that remembers something with its owner, by ids. `phase` is the
-// level and the colour of the bundles.
+// Before the lists are rebuilt: notes each contact that remembers something with its owner, by ids.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
-#include "shared/grid.h"
-#include "shared/bundles.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, idAndMaterial)
@@ -15,7 +12,7 @@ BUFFER(readonly, float, contactX)
 BUFFER(readonly, float, contactY)
 BUFFER(readonly, float, contactZ)
 BUFFER(coherent, uint, counters)
-BUFFER(coherent, uint, carriedCount)  // by id: contacts of the owner, and above them the number of the lists
+BUFFER(coherent, uint, carriedCount)  // by id: see carried.h
 BUFFER(writeonly, uvec2, carried)     // by id, CARRIED_MOST each: id of the partner, number of the pair
 
 #include "shared/bundle_words.h"
@@ -23,28 +20,20 @@ BUFFER(writeonly, uvec2, carried)     // by id, CARRIED_MOST each: id of the par
 #include "shared/contact_memory.h"
 #include "shared/contact_owner.h"
 
-PRIVATE(uint, noted)
-
-bool beginBundle(uint bundle) {
-    noted = 0u;
-    return hasList(bundle) && listedPairs(bundle) > 0u;
-}
-
-void endBundle(uint bundle) {
+BUNDLE_KERNEL(params.bundles) {
+    if (!hasList(invocation) || listedPairs(invocation) == 0u) return;
+    uint noted = 0u;
+    uint previous = previousHalf();
+    for (uint k = firstPair(invocation) + THREAD; k < endOfPairs(invocation); k += THREADS) {
+        uint memory = previous + k;
+        if (contactX[memory] == 0.0f && contactY[memory] == 0.0f && contactZ[memory] == 0.0f) continue;
+        noted = noted + 1u;
+        uvec2 pair = pairs[k];
+        bool first = firstOwnsContact(pair.x, pair.y);
+        uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
+        uint partner = idOf(idAndMaterial[first ? pair.y : pair.x]);
+        uint place = countIn(atomicAdd(carriedCount[owner], oneMoreCarried()));
+        if (place < CARRIED_MOST) carried[owner * CARRIED_MOST + place] = uvec2(partner | (first ? FIRST_OWNS : 0u), k);
+    }
     if (noted > 0u) atomicAdd(counters[COUNTER_CARRIED], noted);
 }
-
-void visitPairs(uint a, uint b, uint at) {
-    uint memory = previousHalf() + at;
-    if (contactX[memory] == 0.0f && contactY[memory] == 0.0f && contactZ[memory] == 0.0f) return;
-    noted = noted + 1u;
-    bool first = firstOwnsContact(a, b);
-    uint owner = idOf(idAndMaterial[first ? a : b]);
-    uint partner = idOf(idAndMaterial[first ? b : a]);
-    uint count = carriedBy(owner);
-    if (count == CARRIED_MOST) return;
-    carriedCount[owner] = (counters[COUNTER_LISTS] << 8u) | (count + 1u);
-    carried[owner * CARRIED_MOST + count] = uvec2(partner | (first ? FIRST_OWNS : 0u), at);
-}
-
-PAIR_KERNEL

@@ -36,6 +36,7 @@ BUFFER(coherent, uint, surfaceSums)
 #include "shared/outside.h"
 #include "shared/falling_frame.h"
 #include "shared/mesh_room.h"
+#include "shared/ask_for_lists.h"
 #include "shared/motion.h"
 #include "shared/surface_sums.h"
 
@@ -392,9 +393,13 @@ LANE_KERNEL(params.spheres) {
     if (HAS(CONTACTS)) {
         real3 since = to - real3(ROW(listReference, invocation)) - real3(driftPath());
         real3 relative = arc - real3(driftVelocity());
-        real moved = sqrt(dot3(since, since)) + sqrt(dot3(relative, relative)) * h;
-        mask leaves = inside && moved > params.rebuildMove;
+        real distance = sqrt(dot3(since, since));
+        real next = sqrt(dot3(relative, relative)) * h;  // in the next substep
+        mask soon = inside && distance + next * SOON_SUBSTEPS > params.rebuildMove;
+        if (HAS(PERIODIC)) soon = soon || (inside && mustWrap(to + arc * (h * SOON_SUBSTEPS)));
+        if (!anyLane(soon)) return;
+        mask leaves = inside && distance + next > params.rebuildMove;
         if (HAS(PERIODIC)) leaves = leaves || (inside && mustWrap(to));
-        if (anyLane(leaves)) atomicOr(counters[COUNTER_REBUILD], 1u);
+        askForLists(anyLane(leaves));
     }
 }

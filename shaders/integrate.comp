@@ -27,6 +27,7 @@ BUFFER(readonly, uint, obstacleLists)
 #include "shared/falling_frame.h"
 #include "shared/moving.h"
 #include "shared/mesh_room.h"
+#include "shared/ask_for_lists.h"
 #include "shared/motion.h"
 
 KERNEL(params.spheres) {

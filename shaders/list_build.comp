@@ -1,5 +1,6 @@
-// Finds the pairs of each group of 2 x 2 x 2 cells whose gap is below the margin: the candidates. One walk fills a
-// local array, which is then copied. A group with more pairs walks a second time. Pairs of fixed spheres are left out.
+// Finds the pairs of each group of 2 x 2 x 2 cells whose gap is below the margin: the candidates. Pairs of fixed
+// spheres are left out. The threads of a work group take equal shares of the group's spheres. The first walk of a thread
+// fills a local array, which is then copied. A thread with more pairs walks a second time.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -10,30 +11,41 @@ PARAMETERS
 #include "shared/bundles.h"
 #include "shared/limits.h"
 #include "shared/outside.h"
+#include "shared/candidate.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, float, sortedX)
 BUFFER(readonly, float, sortedY)
 BUFFER(readonly, float, sortedZ)
 BUFFER(readonly, float, sortedRadius)
 BUFFER(readonly, uint, cellStart)
 BUFFER(coherent, uint, counters)
-BUFFER(writeonly, uvec2, candidates)  // slots; the high bit of the first is set if the pair is far
+BUFFER(writeonly, uvec2, candidates)  // see candidate.h
 BUFFER(writeonly, uvec2, groupRange)  // first candidate, candidates
 
-#define LOCAL_PAIRS 192u
+#define LOCAL_PAIRS (THREADS == 1u ? 192u : 32u)
 // Pairs with a gap above this share of the smaller radius are far. They come last in their batch, so that pairs that
 // touch are together in the lanes of the solver.
 #define FAR_GAP 0.05f
+// The counter of candidates stays below 2^32: beyond this value, nothing is added.
+#define MOST_COUNTED 0x80000000u
 PRIVATE(uint, found)
 PRIVATE(uint, base)      // index of the first pair; UNLISTED during the first walk
 PRIVATE(uvec2, local[LOCAL_PAIRS])
 
 PRIVATE(uint, visited)   // the sphere whose range is visited
+PRIVATE(uint, visitedId)
+
+SHARED(uint, firstOfThread[THREADS])  // first the number of pairs of each thread, then the number of those before it
+SHARED(uint, groupPairs)
+SHARED(uint, groupStart)
+SHARED(bool, fits)
+SHARED(uint, cutShort)
 
 void addPair(uint b, bool isFar) {
-    uvec2 pair = uvec2(isFar ? visited | 0x80000000u : visited, b);
+    uvec2 pair = candidateOf(visited, b, isFar, batchHash(visitedId, idOf(idAndMaterial[b])));
     if (base != UNLISTED) {
         candidates[base + found] = pair;
     } else if (found < LOCAL_PAIRS) {
@@ -44,6 +56,7 @@ void addPair(uint b, bool isFar) {
 
 void visitRange(uint a, uint begin, uint end) {
     visited = a;
+    visitedId = idOf(idAndMaterial[a]);
     vec4 sphere = position[a];
     real4 pa = real4(sphere);
     bool fixedHere = HAS(FIXED) && isFixed(velocity[a]);
@@ -67,31 +80,50 @@ void visitRange(uint a, uint begin, uint end) {
 
 #include "shared/group.h"
 
-LANE_LOOP_KERNEL(allCells() / 8u) {
-    found = 0u;
-    base = UNLISTED;
+// Finds room for the pairs of the group.
+void reserve() {
+    groupPairs = 0u;
+    for (uint thread = 0u; thread < THREADS; ++thread) {
+        uint count = firstOfThread[thread];
+        firstOfThread[thread] = groupPairs;
+        groupPairs = groupPairs + count;
+    }
+    groupStart = 0u;
+    if (groupPairs > 0u && counters[COUNTER_CANDIDATES] < MOST_COUNTED)
+        groupStart = atomicAdd(counters[COUNTER_CANDIDATES], groupPairs);
+    // If it does not fit, list_order.comp makes no lists.
+    fits = groupPairs <= params.pairCapacity && groupStart <= params.pairCapacity - groupPairs;
+    cutShort = 0u;
+}
+
+LANE_BUNDLE_KERNEL(allCells() / 8u) {
     uint sampleRound = counters[COUNTER_REBUILDS];
-    visitGroupNumber(invocation, sampleRound);
-    uint count = found;
-    if (sampled) {
-        // Each new list takes another share of the pairs. The group therefore asks for a new list in each substep.
-        atomicAdd(counters[COUNTER_SAMPLED], 1u);
-        atomicOr(counters[COUNTER_REBUILD], 1u);
+    base = UNLISTED;
+    uint count = 0u;
+    for (uint walk = 0u; walk < 2u; ++walk) {
+        found = 0u;
+        sampled = 0u;
+        // The second walk is for threads with more pairs than the array holds.
+        if (walk == 0u || (fits && count > LOCAL_PAIRS)) visitShareOfGroup(invocation, THREAD, THREADS, sampleRound);
+        if (walk > 0u) continue;
+        count = found;
+        if (sampled > 0u) {
+            // Each new list takes another share of the pairs. The group therefore asks for a new list in each substep.
+            atomicAdd(counters[COUNTER_SAMPLED], sampled);
+            atomicOr(counters[COUNTER_REBUILD], REBUILD_DUE);
+        }
+        firstOfThread[THREAD] = count;
+        BARRIER
+        if (FIRST_THREAD) reserve();
+        BARRIER
+        base = groupStart + firstOfThread[THREAD];
     }
-    uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_CANDIDATES], count);
-    bool fits = count <= params.pairCapacity && start <= params.pairCapacity - count;
-    if (!fits) {  // list_order.comp makes no lists then
-        groupRange[invocation] = uvec2(start, 0u);
-        return;
-    }
-    found = 0u;
-    if (count <= LOCAL_PAIRS) {
-        for (; found < count; ++found) candidates[start + found] = local[found];
-    } else {
-        base = start;
-        visitGroupNumber(invocation, sampleRound);
-    }
+    if (fits && count <= LOCAL_PAIRS)
+        for (; found < count; ++found) candidates[base + found] = local[found];
     // Mesa's software renderer ends the loops of an invocation after 65,535 iterations together.
-    if (found < count) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
-    groupRange[invocation] = uvec2(start, found);
+    if (fits && found < count) cutShort = 1u;
+    BARRIER
+    if (!FIRST_THREAD) return;
+    if (cutShort != 0u) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
+    groupRange[invocation] = uvec2(groupStart, fits && cutShort == 0u ? groupPairs : 0u);
 }

@@ -15,6 +15,7 @@ KERNEL(params.bundles) {
         return;
     }
     atomicAdd(counters[COUNTER_UNLISTED], 1u);
+    if (invocation == 0u) atomicOr(counters[COUNTER_REBUILD], LISTS_MISSING);
     bundles[invocation * BUNDLE_WORDS] = counters[COUNTER_REBUILDS];
     bundles[invocation * BUNDLE_WORDS + 1u] = UNLISTED;
     if (invocation == 0u) dispatchArgs[LAUNCH_UNLISTED] = dispatchSizes[LAUNCH_UNLISTED];

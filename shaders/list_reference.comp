@@ -15,6 +15,7 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(writeonly, vec4, listReference)
 BUFFER(writeonly, uint, slotOf)
 BUFFER(writeonly, uint, busyBatches)
+BUFFER(restrict, uint, carriedCount)
 BUFFER(writeonly, float, sortedX)
 BUFFER(writeonly, float, sortedY)
 BUFFER(writeonly, float, sortedZ)
@@ -23,6 +24,7 @@ BUFFER(coherent, uint, counters)
 BUFFER(writeonly, uint, cellOrder)
 
 #include "shared/ordered_key.h"
+#include "shared/carried.h"
 
 void raise(uint word, uint key) {
     if (counters[word] < key) atomicMax(counters[word], key);
@@ -48,8 +50,10 @@ KERNEL(params.spheres) {
         if (!lost(sphere)) cellOrder[atomicAdd(counters[COUNTER_OUTSIDE], 1u)] = invocation;
     }
     listReference[invocation] = vec4(vec3(sphere), room);
-    slotOf[idOf(idAndMaterial[invocation])] = invocation;
-    busyBatches[invocation] = 0u;
+    uint id = idOf(idAndMaterial[invocation]);
+    slotOf[id] = invocation;
+    if (HAS(CONTACT_MEMORY)) carriedCount[id] = withoutNextCount(carriedCount[id]);
+    for (uint colour = 0u; colour < 8u; ++colour) busyBatches[colour * params.spheres + invocation] = 0u;
     sortedX[invocation] = sphere.x;
     sortedY[invocation] = sphere.y;
     sortedZ[invocation] = sphere.z;

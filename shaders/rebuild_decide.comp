@@ -1,5 +1,6 @@
-// Sets the sizes of a rebuild's launches, either all of them or none, so that the host never waits for the decision.
-// Also counts the substep, and moves the drift and the frame of the spheres outside.
+// Sets the sizes of a rebuild's launches, either all of them or none. `phase` is 0 if the host does not launch them in
+// this substep: a rebuild that is due then waits. Also counts the substep, and moves the drift and the frame of the
+// spheres outside.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -37,21 +38,26 @@ KERNEL(1u) {
     counters[COUNTER_SUBSTEPS] = counters[COUNTER_SUBSTEPS] + 1u;
     uint words = params.bundles * BUNDLE_WORDS;
     bundles[words + WORD_FASTEST] = 0u;
-    bool rebuild = counters[COUNTER_REBUILD] != 0u;
+    bool due = (counters[COUNTER_REBUILD] & REBUILD_DUE) != 0u;
+    bool soon = false;
+    float path = 0.0f;
     if (HAS(MOTION)) {
-        float path = uintBitsToFloat(counters[COUNTER_OBSTACLE_PATH]) + params.obstaclePath;
+        path = uintBitsToFloat(counters[COUNTER_OBSTACLE_PATH]) + params.obstaclePath;
         // A sphere without a valid list visits all obstacles, which is no loss while they are few.
-        rebuild = rebuild || (params.obstacles > FEW_OBSTACLES &&
-                              path > max(params.margin, OBSTACLE_SUBSTEPS * params.obstaclePath));
-        counters[COUNTER_OBSTACLE_PATH] = floatBitsToUint(rebuild ? 0.0f : path);
+        float most = max(params.margin, OBSTACLE_SUBSTEPS * params.obstaclePath);
+        due = due || (params.obstacles > FEW_OBSTACLES && path > most);
+        soon = params.obstacles > FEW_OBSTACLES && path + SOON_SUBSTEPS * params.obstaclePath > most;
     }
+    bool rebuild = due && phase != 0u;
+    if (HAS(MOTION)) counters[COUNTER_OBSTACLE_PATH] = floatBitsToUint(rebuild ? 0.0f : path);
     for (uint row = 0u; row < LAUNCH_ROWS; ++row) {
         bool launched = rebuild && row < LAUNCH_LOST_SPHERES;
         if (row == LAUNCH_UNLISTED) launched = counters[COUNTER_UNLISTED] != 0u;
         dispatchArgs[row] = launched ? dispatchSizes[row] : uvec4(0u, 1u, 1u, 0u);
     }
+    uint kept = rebuild ? 0u : counters[COUNTER_REBUILD] & (REBUILD_DUE | LISTS_MISSING);
+    counters[COUNTER_REBUILD] = kept | (soon ? REBUILD_SOON : 0u);
     if (rebuild) {
-        counters[COUNTER_REBUILD] = 0u;
         counters[COUNTER_PAIRS] = 0u;
         counters[COUNTER_CANDIDATES] = 0u;
         counters[COUNTER_UNLISTED] = 0u;

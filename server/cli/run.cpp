@@ -63,6 +63,7 @@ class IntervalTimer {
         static_cast<void>(device_.takeTimes());
         simTime_ = simulation_.time();
         rebuilds_ = simulation_.counters().rebuilds;
+        launches_ = simulation_.pipeline().launches();
         impacts_ = simulation_.impacts();
         sums_ = simulation_.readContactSums();
         began_ = Clock::now();
@@ -73,7 +74,8 @@ class IntervalTimer {
         Interval interval{.simSeconds = simulation_.time() - simTime_,
                           .wallSeconds = secondsSince(began_),
                           .passSeconds = device_.takeTimes(),
-                          .rebuilds = rebuildsSince(rebuilds_),
+                          .rebuilds = since(rebuilds_, simulation_.counters().rebuilds),
+                          .launches = since(launches_, simulation_.pipeline().launches()),
                           .before = impacts_};
         interval.end = simulation_.statistics();
         if (const auto& sums = interval.end.contactSums)
@@ -83,15 +85,13 @@ class IntervalTimer {
 
   private:
     // A command that makes other arrays begins the count anew.
-    [[nodiscard]] std::uint64_t rebuildsSince(std::uint64_t before) const {
-        const std::uint64_t now = simulation_.counters().rebuilds;
-        return now >= before ? now - before : now;
-    }
+    static std::uint64_t since(std::uint64_t before, std::uint64_t now) { return now >= before ? now - before : now; }
 
     sim::Simulation& simulation_;
     compute::Device& device_;
     double simTime_ = 0;
     std::uint64_t rebuilds_ = 0;
+    std::uint64_t launches_ = 0;
     sim::Impacts impacts_;
     sim::ContactSums sums_;
     Clock::time_point began_;

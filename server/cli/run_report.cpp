@@ -59,6 +59,8 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"deviceSeconds", std::accumulate(interval.passSeconds.begin(), interval.passSeconds.end(), 0.0)},
         {"passSeconds", passesOf(interval)},
         {"rebuilds", interval.rebuilds},
+        {"launches", interval.launches},
+        {"longestChain", simulation.pipeline().longestChain()},
         {"kineticEnergy", s.kineticEnergy},
         {"rotationalEnergy", s.rotationalEnergy},
         {"elasticEnergy", s.elasticEnergy},

@@ -15,6 +15,7 @@ struct Interval {
     double wallSeconds = 0;
     std::vector<double> passSeconds;  // device time (s), by sim::Pass
     std::uint64_t rebuilds = 0;       // of the pair lists
+    std::uint64_t launches = 0;       // of kernels
     sim::Impacts before;              // impacts observed before the interval
     sim::Statistics end{};            // statistics at the end of the interval
 };

@@ -61,8 +61,9 @@ class SourceSet {
     [[nodiscard]] virtual std::optional<std::string_view> find(std::string_view name) const = 0;
 };
 
-// One launch of `count` invocations; 0 launches nothing. With `arguments`, the uvec4 at `argumentsOffset` (bytes) holds
-// the groups x, y, z and the invocation count instead.
+// One launch of `count` invocations, or of `count` work groups if the kernel is a BUNDLE_KERNEL or a PAIR_KERNEL
+// (shaders/shared/kernel.h); 0 launches nothing. With `arguments`, the uvec4 at `argumentsOffset` (bytes) holds the
+// groups x, y, z and `count` instead.
 struct Launch {
     const Kernel* kernel = nullptr;
     std::span<Buffer* const> buffers;  // in the order of Kernel::buffers()
@@ -81,6 +82,19 @@ class ReadBack {
     [[nodiscard]] virtual std::optional<std::span<const std::byte>> poll() = 0;
 };
 
+// Copies single words to the host while the device continues.
+class WordQueue {
+  public:
+    static constexpr std::size_t most = 4;  // words under way
+
+    virtual ~WordQueue() = default;
+    // Starts to copy the 32-bit word at `offset` (bytes), as the launches so far leave it.
+    virtual void start(const Buffer& buffer, std::size_t offset) = 0;
+    [[nodiscard]] virtual std::size_t underWay() const = 0;
+    // Returns the word whose copy started first, and waits for it. All its bits are set if the device is lost.
+    virtual std::uint32_t take() = 0;
+};
+
 class Device {
   public:
     virtual ~Device() = default;
@@ -97,11 +111,12 @@ class Device {
     [[nodiscard]] virtual std::uint64_t hostBytes(std::uint64_t bytes, std::string_view words = "u") const = 0;
 
     // Compiles `file` with the defines. An error contains the compiler's messages with file and line. A kernel has a
-    // local size of 64 (or of 1, to measure the cost of small groups). It has at most maxKernelBuffers storage buffers
-    // and at most one uniform block (binding 0). It may have the uniforms `phase` and `invocations`. `invocations` is
-    // the invocation count, or 0xffffffff in an indirect launch, in which the kernel reads the count itself. The index
-    // of an invocation is gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU
-    // device contains the kernels of shaders/ and accepts no others.
+    // local size of 64 (or of 1, to measure the cost of small groups), a PAIR_KERNEL the size that suits the device. A
+    // kernel has at most maxKernelBuffers storage buffers and at most one uniform block (binding 0). It may have the
+    // uniforms `phase` and `invocations`. `invocations` is the invocation count, or 0xffffffff in an indirect launch,
+    // in which the kernel reads the count itself. The index of an invocation is gl_GlobalInvocationID.x +
+    // gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU device contains the kernels of shaders/ and
+    // accepts no others.
     virtual Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
                                                          std::span<const Define> defines) = 0;
 
@@ -116,6 +131,8 @@ class Device {
 
     // Starts a copy to the host. Returns nullptr if two copies are already under way.
     virtual std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) = 0;
+
+    virtual std::unique_ptr<WordQueue> createWordQueue() = 0;
 
     // Add the device time between beginTimer() and endTimer() to `slot`. takeTimes() returns the time (s) per slot and
     // resets all slots. Only takeTimes() waits for the device. Timers do not nest.

@@ -15,6 +15,12 @@ constexpr std::size_t linesPerFile = 100000;
 
 constexpr std::string_view bufferKeyword = "BUFFER(";
 
+// True of the line that begins the body of a kernel with a work group for each bundle.
+bool definesGroups(std::string_view line) {
+    if (line.starts_with("LANE_")) line.remove_prefix(5);
+    return line.starts_with("BUNDLE_KERNEL") || line.starts_with("PAIR_KERNEL");
+}
+
 // The parts of a line `BUFFER(access, type, name) rest`; parseBuffer() returns nullopt if the line does not have this
 // form.
 struct BufferLine {
@@ -119,6 +125,7 @@ class Expander {
             } else if (line.starts_with(bufferKeyword)) {
                 if (auto declared = declareBuffer(line, fmt::format("{}:{}", file, number)); !declared) return declared;
             } else {
+                result_.countsGroups = result_.countsGroups || definesGroups(line);
                 result_.text.append(line);
                 result_.text.push_back('\n');
             }

@@ -22,6 +22,7 @@ struct ExpandedSource {
     std::string text;
     std::vector<std::string> files;
     std::vector<Buffer> buffers;  // declared by the kernel; the index is the binding
+    bool countsGroups = false;    // a launch counts work groups: the kernel is a BUNDLE_KERNEL or a PAIR_KERNEL
 };
 
 // Replaces every line `#include "name"` of `file` by that file of `sources`, recursively and at each occurrence (shared

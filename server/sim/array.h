@@ -22,6 +22,7 @@ constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 // An array has one element for each of these. "End": one element more.
 enum class Extent : std::uint8_t {
     Sphere,
+    SphereAndColour,  // each sphere, once for each colour of bundles
     PaddedSphere,    // with PAIR_PADDING more at the end
     RememberedWall,  // each wall contact that a sphere remembers
     CellEnd,

@@ -19,15 +19,16 @@ namespace {
 
 constexpr std::uint32_t workgroup = 64;
 constexpr std::uint32_t maxGroupsPerAxis = 32768;
-static_assert(workgroup == BUNDLE_THREADS);
 static_assert(scene::maxSpheres <= Pipeline::idMask);
 static_assert(scene::maxMaterials <= 1U << (32 - Pipeline::idBits));
 
-// Returns groups x, y, z for `invocations`, as the kernels index them, and `invocations`.
-glm::uvec4 groupsFor(std::uint32_t invocations) {
-    const std::uint32_t groups = (invocations + workgroup - 1) / workgroup;
+// Returns groups x, y, z for a row of the launch table, as the kernels index them, and `count`.
+glm::uvec4 argumentsOf(std::uint32_t row, std::uint32_t count) {
+    const bool countsGroups = row == LAUNCH_GROUPS || row == LAUNCH_BUNDLES || row == LAUNCH_COLOUR ||
+                              row == LAUNCH_LEVEL || row == LAUNCH_LOST_COLOUR;
+    const std::uint32_t groups = countsGroups ? count : (count + workgroup - 1) / workgroup;
     const std::uint32_t x = std::min(groups, maxGroupsPerAxis);
-    return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, invocations};
+    return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, count};
 }
 
 // Adds the memory of the whole scene to a refusal, because the device refuses a single array.
@@ -104,6 +105,7 @@ Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Ke
 }
 
 Pipeline::Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {
+    if (plan_.features.has(Feature::Contacts)) rebuildWords_ = device_.createWordQueue();
     for (const auto* launches : {&plan_.substep, &plan_.newSubstep, &plan_.statistics, &plan_.stepEnd})
         for (const LaunchSpec& launch : *launches)
             if (std::ranges::find(kernelFiles_, launch.kernel) == kernelFiles_.end())
@@ -159,7 +161,8 @@ Result<void> Pipeline::makeArray(const ArraySpec& spec) {
 
 void Pipeline::writeDispatchSizes() {
     std::vector<glm::uvec4> rows;
-    for (const std::uint32_t invocations : plan_.dispatchSizes) rows.push_back(groupsFor(invocations));
+    for (const std::uint32_t count : plan_.dispatchSizes)
+        rows.push_back(argumentsOf(static_cast<std::uint32_t>(rows.size()), count));
     write<glm::uvec4>(Array::DispatchSizes, rows);
 }
 
@@ -196,7 +199,9 @@ void Pipeline::setParameters(layout::Parameters parameters) {
     const float before = std::exchange(substepLength_, parameters.substep);
     parameters.substepRatio = before > 0 ? parameters.substep / before : 1;
     device_.upload(*parameters_, 0, std::as_bytes(std::span(&parameters, 1)));
-    if (parameters.substepRatio != 1) run(newSubstep_, LaunchSet::Substep);
+    if (parameters.substepRatio == 1) return;
+    run(newSubstep_, LaunchSet::Substep);
+    awaitSpeeds();
 }
 
 // Writes the columns to the slots from `first` on.
@@ -233,9 +238,9 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
     for (std::uint32_t slot = 0; slot < state.count(); ++slot) words[slot] |= std::uint32_t{materials[slot]} << idBits;
     write<std::uint32_t>(Array::IdAndMaterial, words);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
-    counters[COUNTER_REBUILD] = 1;
+    counters[COUNTER_REBUILD] = REBUILD_DUE;
     write<std::uint32_t>(Array::Counters, counters);
-    listsPending_ = true;
+    expectRebuild();
 }
 
 SlotState Pipeline::download() {
@@ -306,25 +311,14 @@ void Pipeline::setSpheres(std::uint32_t count) {
 }
 
 void Pipeline::requestRebuild() {
-    const std::uint32_t rebuild = 1;
+    const std::uint32_t rebuild = REBUILD_DUE;
     write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&rebuild, 1), COUNTER_REBUILD);
+    expectRebuild();
+}
+
+void Pipeline::expectRebuild() {
     listsPending_ = true;
-}
-
-// The next lists of overfull cells depend on two counters, which must count only the lists of substeps.
-void Pipeline::rebuildLists() {
-    const auto before = read<std::uint32_t>(Array::Counters);
-    run(substep_, LaunchSet::Rebuild);
-    for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
-        write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
-    listsPending_ = false;
-}
-
-void Pipeline::substep(bool observed) {
-    if (pulling_) run(pulls_, LaunchSet::Substep);
-    run(substep_, observed ? LaunchSet::ObservedSubstep : LaunchSet::Substep);
-    listsPending_ = false;
-    impactsPending_ = impactsPending_ || observed;
+    awaitSpeeds();
 }
 
 std::vector<glm::vec4> Pipeline::takeImpacts() {
@@ -350,46 +344,6 @@ std::vector<std::uint32_t> Pipeline::contactCounts() {
     const auto touching = read<std::uint32_t>(touchingArray);
     for (std::uint32_t slot = 0; slot < plan_.spheres; ++slot) counts[words[slot] & idMask] = touching[slot];
     return counts;
-}
-
-void Pipeline::run(const std::vector<BoundLaunch>& launches, LaunchSet set) {
-    const auto skipped = [set](const LaunchSpec& spec) {
-        const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::ContactMemory;
-        switch (set) {
-            case LaunchSet::Rebuild:
-                return !rebuild;
-            case LaunchSet::Waking:
-                return !spec.waking;
-            case LaunchSet::Substep:
-                return spec.observing;
-            case LaunchSet::ObservedSubstep:
-                break;
-        }
-        return false;
-    };
-    std::optional<Pass> timed;
-    std::array<compute::Buffer*, compute::maxKernelBuffers> bound{};
-    for (const BoundLaunch& one : launches) {
-        const LaunchSpec& spec = *one.spec;
-        if (skipped(spec)) continue;
-        if (timed != spec.pass) {
-            if (timed) device_.endTimer();
-            device_.beginTimer(static_cast<unsigned>(spec.pass));
-            timed = spec.pass;
-        }
-        for (std::size_t slot = 0; slot < one.arrays.size(); ++slot) bound[slot] = &buffer(one.arrays[slot]);
-        compute::Launch launch{.kernel = one.kernel,
-                               .buffers = std::span(bound.data(), one.arrays.size()),
-                               .parameters = parameters_.get(),
-                               .phase = spec.phase,
-                               .count = spec.count};
-        if (spec.launchRow) {
-            launch.arguments = &buffer(Array::DispatchArgs);
-            launch.argumentsOffset = *spec.launchRow * sizeof(glm::uvec4);
-        }
-        device_.launch(launch);
-    }
-    if (timed) device_.endTimer();
 }
 
 }  // namespace spherule::sim

@@ -136,6 +136,12 @@ class Pipeline {
     // Makes room for more pairs. The lists are rebuilt in the next substep.
     Result<void> growPairs(std::uint32_t capacity);
 
+    // Returns the number of kernels launched since the pipeline was made.
+    [[nodiscard]] std::uint64_t launches() const { return launches_; }
+    // Returns how many batches of pairs follow one another in a substep with the present lists: the most that a bundle of
+    // each colour has, added up. A pair without a batch counts as one. Waits for the device.
+    [[nodiscard]] std::uint32_t longestChain();
+
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] compute::Buffer& buffer(Array array) { return *buffers_[static_cast<std::size_t>(array)]; }
 
@@ -150,6 +156,10 @@ class Pipeline {
     void setSpheres(std::uint32_t count);
     void takeWallMemory(Pipeline& before, const NewKey& newKey);
     void rebuildLists();
+    void expectRebuild();
+    // Launches the kernels of a rebuild in the next substeps: the speeds, or the length of the substep, have changed.
+    void awaitSpeeds() { unforeseen_ = substepsAhead; }
+    void chooseLaunches();
     void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
     Result<void> makeSlotOf();
@@ -187,7 +197,13 @@ class Pipeline {
     const LaunchSpec pullSpec_{.pass = Pass::Integrate, .kernel = "pull.comp", .count = MOST_PULLS};
     std::vector<BoundLaunch> pulls_;  // empty until a sphere is pulled
     bool pulling_ = false;
-    float substepLength_ = 0;  // s; 0: none yet
+    float substepLength_ = 0;                     // s; 0: none yet
+    static constexpr unsigned substepsAhead = 2;  // that the host launches before it needs COUNTER_REBUILD of the first
+    std::unique_ptr<compute::WordQueue> rebuildWords_;  // COUNTER_REBUILD at the end of the last substeps
+    unsigned unforeseen_ = 0;      // substeps for which COUNTER_REBUILD does not tell whether a rebuild may be due
+    bool launchesRebuild_ = true;  // in this substep
+    bool listsMayBeMissing_ = true;
+    std::uint64_t launches_ = 0;
 };
 
 }  // namespace spherule::sim

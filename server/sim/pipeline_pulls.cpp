@@ -40,6 +40,7 @@ Result<void> Pipeline::setPulls(std::span<const glm::vec4> rows) {
     std::ranges::copy(rows, all.begin());
     write<glm::vec4>(Array::Pulls, all);
     pulling_ = true;
+    awaitSpeeds();
     return {};
 }
 

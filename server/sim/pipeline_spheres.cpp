@@ -188,6 +188,7 @@ void Pipeline::applyImpulse(std::uint32_t handle, glm::vec3 impulse) {
     velocity.w = std::abs(velocity.w);
     velocity += glm::vec4(impulse * velocity.w, 0);
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
+    awaitSpeeds();
     if (!plan_.features.has(Feature::Sleep)) return;
     // A slow push must also wake the sleepers that the sphere touches.
     constexpr float movedAway = MOVED_AWAY;

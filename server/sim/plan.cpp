@@ -48,6 +48,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
     switch (extent) {
         case Extent::Sphere:
             return n;
+        case Extent::SphereAndColour:
+            return 8 * n;
         case Extent::PaddedSphere:
             return n + PAIR_PADDING;
         case Extent::RememberedWall:
@@ -63,7 +65,7 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::BundleWord:
             return (std::uint64_t{plan.grid.bundles()} + 1) * BUNDLE_WORDS +
                    (plan.features.has(Feature::ContactSums)
-                        ? std::uint64_t{plan.grid.bundles()} * BUNDLE_THREADS * SUM_WORDS
+                        ? std::uint64_t{plan.grid.bundles()} * MOST_PAIR_THREADS * SUM_WORDS
                         : 0);
         case Extent::Pair:
             return plan.pairCapacity;
@@ -118,7 +120,7 @@ std::uint32_t invocationsOver(Varying what, const Plan& plan) {
 std::vector<std::uint32_t> launchTable(const Plan& plan) {
     const std::uint32_t cells = plan.grid.all() + 1;
     const std::uint32_t cellBlocks = blocksOf(cells, SCAN_BLOCK);
-    std::uint32_t colour = 0;
+    std::uint32_t colour = 0;  // bundles of a colour
     for (const Level& level : plan.grid.levels) colour = std::max(colour, level.bundlesOfColour());
     std::vector<std::uint32_t> rows(LAUNCH_ROWS);
     rows[LAUNCH_SPHERES] = plan.spheres;
@@ -128,10 +130,12 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
     rows[LAUNCH_ONE] = 1;
     rows[LAUNCH_GROUPS] = plan.groups();
     rows[LAUNCH_OUTSIDE] = MOST_OUTSIDE;
-    rows[LAUNCH_BUNDLES] = BUNDLE_THREADS * plan.grid.bundles();
-    rows[LAUNCH_COLOUR] = BUNDLE_THREADS * colour;
+    rows[LAUNCH_FIT] = plan.grid.bundles();
+    rows[LAUNCH_BUNDLES] = plan.grid.bundles();
+    rows[LAUNCH_COLOUR] = colour;
+    rows[LAUNCH_LEVEL] = 8 * colour;
     rows[LAUNCH_LOST_SPHERES] = plan.spheres;
-    rows[LAUNCH_LOST_COLOUR] = BUNDLE_THREADS * colour;
+    rows[LAUNCH_LOST_COLOUR] = colour;
     rows[LAUNCH_UNLISTED] = colour;
     return rows;
 }
@@ -154,7 +158,7 @@ void addRequests(Plan& plan) {
     plan.figures.push_back(over(Varying::Spheres, "figures_surfaces.comp", aliases));
     if (plan.features.has(Feature::Contacts)) {
         plan.figures.push_back(over(Varying::Nothing, "figures_contacts.comp", aliases));
-        plan.figures.back().count = BUNDLE_THREADS * plan.grid.bundles();
+        plan.figures.back().count = plan.grid.bundles();
     }
     plan.figures.push_back(over(Varying::Spheres, "figures.comp", aliases));
     plan.figures.back().aliases.push_back({"figures", figuresArray});
@@ -193,6 +197,22 @@ void Plan::setPairCapacity(std::uint32_t pairs) {
 std::uint64_t Plan::bytes() const {
     return std::accumulate(arrays.begin(), arrays.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const ArraySpec& spec) { return sum + spec.bytes; });
+}
+
+SubstepCost costOf(const Plan& plan, bool rebuild) {
+    SubstepCost cost;
+    for (const LaunchSpec& launch : plan.substep)
+        cost.launches += !launch.observing && (rebuild || !launch.launchRow) ? 1 : 0;
+    // Each launch has one. The host reads a word after each substep, which takes one before the copy and one after it.
+    // The arguments of indirect launches are written three times.
+    cost.barriers = cost.launches;
+    if (plan.features.has(Feature::Contacts)) cost.barriers += rebuild ? 5 : 2;
+    return cost;
+}
+
+std::uint32_t mostBatches(const Plan& plan) {
+    if (!plan.features.has(Feature::Contacts)) return 0;
+    return 8 * BATCHES * static_cast<std::uint32_t>(plan.grid.levels.size());
 }
 
 namespace {

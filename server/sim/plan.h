@@ -48,11 +48,12 @@ enum class Varying : std::uint8_t { Nothing, Spheres, StatisticBlocks, PairsTwic
 struct LaunchSpec {
     Pass pass{};
     std::string_view kernel;  // file
-    std::uint32_t count = 0;  // invocations
+    std::uint32_t count = 0;  // invocations; bundles, if the kernel has a work group for each
     std::optional<std::uint32_t> launchRow =
         std::nullopt;  // row of the launch table, for launches that only a rebuild needs
     std::uint32_t phase = 0;
     Varying over = Varying::Nothing;  // each has an invocation: `count` follows
+    bool decidesRebuild = false;      // `phase` tells whether the launches of a rebuild follow
     bool observing = false;           // only in observed steps
     bool waking = false;              // finds the sleepers that a neighbour wakes
     std::vector<Alias> aliases = {};
@@ -77,7 +78,7 @@ struct Plan {
     std::vector<LaunchSpec> stepEnd;             // at the end of a step
     std::vector<LaunchSpec> figures;             // when viewers ask for them: the figures of each sphere
     std::vector<LaunchSpec> inspection;          // likewise: what one sphere touches
-    std::vector<std::uint32_t> dispatchSizes;    // invocations per row of the launch table
+    std::vector<std::uint32_t> dispatchSizes;    // `count` of the launches per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;
     [[nodiscard]] std::uint64_t bytesOf(Array array) const;
@@ -99,6 +100,18 @@ constexpr std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
 // default.
 Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
              std::uint32_t pairCapacity = 0);
+
+// What the device does one after the other in a substep that is not observed. A launch waits for the one before it.
+struct SubstepCost {
+    std::uint32_t launches = 0;
+    std::uint32_t barriers = 0;
+};
+
+// Returns the cost of a substep in which no rebuild of the lists is launched, or one is.
+SubstepCost costOf(const Plan& plan, bool rebuild);
+
+// Returns how many batches of pairs may follow one another in a substep. Pairs without a batch come on top.
+std::uint32_t mostBatches(const Plan& plan);
 
 // Returns a plan for a scene with the same spheres as another plan, whose arrays it can take over.
 Plan planAsOf(const Plan& other, const scene::Scene& scene, const Features& features, const RadiusStats& radii);

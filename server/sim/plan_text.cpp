@@ -115,7 +115,14 @@ std::string planText(const scene::Scene& scene, const Plan& plan, std::span<cons
     for (const Row& row : rowsOf(plan))
         text += fmt::format("{:<17}{:<26}{:>9}{:>13}  {}\n", nameOf(row.pass), row.kernel, row.launches,
                             row.invocations, row.when);
-    return text;
+    const SubstepCost usual = costOf(plan, false);
+    const SubstepCost rebuilding = costOf(plan, true);
+    text += fmt::format("\n{:<43}{:>9}{:>13}\n", "substep", "launches", "barriers");
+    text += fmt::format("{:<43}{:>9}{:>13}\n", "without a rebuild of the lists", usual.launches, usual.barriers);
+    if (mostBatches(plan) == 0) return text;
+    text +=
+        fmt::format("{:<43}{:>9}{:>13}\n", "in which lists may be rebuilt", rebuilding.launches, rebuilding.barriers);
+    return text + fmt::format("{:<43}{:>9}\n", "batches of pairs, one after another, at most", mostBatches(plan));
 }
 
 std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<const MemoryPart> more) {
@@ -159,6 +166,13 @@ std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<cons
                                   {"launches", row.launches},
                                   {"invocations", row.invocations},
                                   {"when", row.when}});
+    const auto costJson = [&](bool rebuild) {
+        const SubstepCost cost = costOf(plan, rebuild);
+        return nlohmann::ordered_json{{"launches", cost.launches}, {"barriers", cost.barriers}};
+    };
+    json["substep"] = costJson(false);
+    json["rebuildSubstep"] = costJson(true);
+    json["mostBatches"] = mostBatches(plan);
     return json.dump();
 }
 

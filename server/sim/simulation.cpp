@@ -235,7 +235,7 @@ Result<void> Simulation::checkStep() {
         addSurfaceLoads(contactSums_, scene::surfacesOf(scene_), *pipeline_, loadUnits_);
     if (counters_.sampled > 0 && !std::exchange(noticedSampled_, true))
         notices_.push_back(fmt::format(
-            "at step {}, {} cell groups are so crowded that in a substep each sphere meets only some of the others",
+            "at step {}, {} spheres are so crowded that in a substep each of them meets only some of the others",
             steps_, counters_.sampled));
     if (counters_.cutShort > 0 && !std::exchange(noticedCutShort_, true))
         notices_.push_back(fmt::format(

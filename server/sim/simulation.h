@@ -77,7 +77,7 @@ class Simulation {
     struct Counters {
         std::uint32_t pairs = 0;                // listed
         std::uint32_t unlisted = 0;             // cell groups without room for their pairs; served, but slowly
-        std::uint32_t sampled = 0;              // cell groups of which only a sample of the pairs is listed
+        std::uint32_t sampled = 0;              // spheres of which only a sample of the pairs is listed
         std::uint32_t cutShort = 0;             // lists of cell groups that the renderer cut short, since the start
         std::uint32_t droppedWallContacts = 0;  // contacts with walls that found no room for their slip
         bool nonFinite = false;                 // some sphere has become non-finite

@@ -1,8 +1,29 @@
 // The contacts that a sphere owns while the lists are rebuilt. The includer binds `carriedCount` and `counters`.
+//
+// A word of `carriedCount` has two counts of 16 bits, which the lists use in turn. list_reference.comp clears the count
+// of the next lists.
 
 #define FIRST_OWNS 0x80000000u  // in the id of the partner: the owner was the first sphere of the pair
 
+uint shiftOfCount() {
+    return 16u * (counters[COUNTER_LISTS] & 1u);
+}
+
+uint oneMoreCarried() {
+    return 1u << shiftOfCount();
+}
+
+// The count in a word.
+uint countIn(uint word) {
+    return (word >> shiftOfCount()) & 0xffffu;
+}
+
+// None are carried if there are too many: which of them have a row depends on the order of the threads.
 uint carriedBy(uint owner) {
-    uint word = carriedCount[owner];
-    return word >> 8u == (counters[COUNTER_LISTS] & 0xffffffu) ? word & 0xffu : 0u;
+    uint count = countIn(carriedCount[owner]);
+    return count <= CARRIED_MOST ? count : 0u;
+}
+
+uint withoutNextCount(uint word) {
+    return word & (0xffffu << shiftOfCount());
 }

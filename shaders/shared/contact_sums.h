@@ -29,7 +29,7 @@ RARE void addToContactSums(mask where, real3 branch, real3 impulse, mask collide
 #define ADD_TO_SUM(word, value) bundles[word] = floatBitsToUint(uintBitsToFloat(bundles[word]) + SUM_OF_LANES(value));
 
 void endContactSums(uint bundle) {
-    uint row = (params.bundles + 1u) * BUNDLE_WORDS + (bundle * BUNDLE_THREADS + THREAD) * SUM_WORDS;
+    uint row = (params.bundles + 1u) * BUNDLE_WORDS + (bundle * MOST_PAIR_THREADS + THREAD) * SUM_WORDS;
     ADD_TO_SUM(row, virialDiagonal.x)
     ADD_TO_SUM(row + 1u, virialDiagonal.y)
     ADD_TO_SUM(row + 2u, virialDiagonal.z)

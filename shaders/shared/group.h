@@ -16,17 +16,33 @@
 #define SAMPLE_LEAST 4u
 #define SAMPLE_VISITS 32768u
 
-PRIVATE(bool, sampled)  // some cells held so many spheres that not all of their pairs were visited
+#define MOST_RUNS 14u  // of a cell, on its own level
+
+PRIVATE(uint, sampled)  // spheres in or beside so many others that not all of their pairs were visited
 PRIVATE(Reach, reached)
 PRIVATE(CellRun, chord)
+// The ranges of sorted spheres with which the spheres of the cell are paired on their own level. The first one is the
+// cell itself.
+PRIVATE(uint, runs)
+PRIVATE(uint, runBegin[MOST_RUNS])
+PRIVATE(uint, runEnd[MOST_RUNS])
+PRIVATE(uint, runCells[MOST_RUNS])
+PRIVATE(uint, sampleSize)
 
-// Has only one call of visitRange: GLSL compilers copy the function to each call, which takes seconds.
-void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
-    uvec4 cells = cellsOf(level);
-    uint cell = cellIndex(cells, x, y, z);
-    uint first = cellStart[cell];
-    uint last = cellStart[cell + 1u];
-    if (first == last) return;
+// Adds the cells `from` to `to` of a row of cells, which begins at cell `first`.
+void addRun(uint first, uint from, uint to) {
+    uint begin = cellStart[first + from];
+    uint end = cellStart[first + to + 1u];
+    if (begin == end) return;
+    runBegin[runs] = begin;
+    runEnd[runs] = end;
+    runCells[runs] = to - from + 1u;
+    runs = runs + 1u;
+}
+
+// Row 0 is the cell itself and the cell to the east. The other rows are cells x - 1 .. x + 1 to the north, above the
+// south, above, and above the north. Each row is one range of the sorted spheres unless the torus cuts it.
+void findRuns(uvec4 cells, uint x, uint y, uint z) {
     uint nx = cells.x;
     uint west = x == 0u ? nx - 1u : x - 1u;
     uint east = x + 1u == nx ? 0u : x + 1u;
@@ -34,75 +50,108 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     uint south = y == 0u ? cells.y - 1u : y - 1u;
     uint above = z + 1u == cells.z ? 0u : z + 1u;
     bool whole = x > 0u && x + 1u < nx;
-    uint sampleSize = max(SAMPLE_LEAST, min(SAMPLE_VISITS / (last - first), SAMPLE_MOST));
-    // One pass for the level itself, then one for each sphere and each finer level.
-    uint passes = HAS(LEVELS) ? 1u + (last - first) * level : 1u;
+    runs = 0u;
+    for (uint row = 0u; row < 5u; ++row) {
+        uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
+        uint start = cellIndex(cells, 0u, ry, row < 2u ? z : above);
+        uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
+        for (uint part = 0u; part < parts; ++part) {
+            uint from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
+            addRun(start, from, row > 0u && whole ? east : from);
+        }
+    }
+    sampleSize = max(SAMPLE_LEAST, min(SAMPLE_VISITS / (runEnd[0] - runBegin[0]), SAMPLE_MOST));
+}
+
+// Visits the pairs of a sphere of the cell of findRuns(). Has only one call of visitRange: GLSL compilers copy the
+// function to each call, which takes seconds.
+void visitSphere(uint a, uint level, uint sampleRound) {
+    bool sampledHere = false;
+    // One pass for the level itself, then one for each finer level.
+    uint passes = HAS(LEVELS) ? 1u + level : 1u;
     for (uint pass = 0u; pass < passes; ++pass) {
         bool finer = HAS(LEVELS) && pass > 0u;
-        uint one = first;
-        if (finer) {
-            one = first + (pass - 1u) / level;
-            reached = reachOf(position[one], (pass - 1u) % level);
-        }
-        // On the level itself, row 0 is the cell itself and the cell to the east. The other rows are cells x - 1 .. x +
-        // 1 to the north, above the south, above, and above the north. Each row is one range of the sorted spheres
-        // unless the torus cuts it.
-        uint rows = finer ? reached.rows : 5u;
+        if (finer) reached = reachOf(position[a], pass - 1u);
+        uint rows = finer ? reached.rows : runs;
         for (uint row = 0u; row < rows; ++row) {
-            uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
-            uint reachedY = finer ? row / reached.z.count : 0u;
-            uint reachedZ = row - reachedY * (finer ? reached.z.count : 0u);
-            uint start = finer ? rowStart(reached, reachedY, reachedZ) : cellIndex(cells, 0u, ry, row < 2u ? z : above);
-            uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
+            uint parts = 1u;
+            uint start = 0u;
             if (finer) {
+                uint reachedY = row / reached.z.count;
+                uint reachedZ = row - reachedY * reached.z.count;
+                start = rowStart(reached, reachedY, reachedZ);
                 chord = rowRun(reached, reachedY, reachedZ);
-                uint ends = chord.start + chord.count;
-                parts = chord.count == 0u ? 0u : (ends > reached.cells.x ? 2u : 1u);
+                parts = chord.count == 0u ? 0u : (chord.start + chord.count > reached.cells.x ? 2u : 1u);
             }
             for (uint part = 0u; part < parts; ++part) {
-                uint from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
-                uint to = row > 0u && whole ? east : from;
+                uint width = 1u;
+                uint b = 0u;
+                uint stop = 0u;
                 if (finer) {
                     uint ends = chord.start + chord.count - 1u;
-                    from = part == 0u ? chord.start : 0u;
-                    to = part == 0u ? min(ends, reached.cells.x - 1u) : ends - reached.cells.x;
+                    uint from = part == 0u ? chord.start : 0u;
+                    uint to = part == 0u ? min(ends, reached.cells.x - 1u) : ends - reached.cells.x;
+                    width = to - from + 1u;
+                    b = cellStart[start + from];
+                    stop = cellStart[start + to + 1u];
+                } else {
+                    width = runCells[row];
+                    b = row == 0u ? a + 1u : runBegin[row];
+                    stop = runEnd[row];
                 }
-                uint begin = cellStart[start + from];
-                uint end = cellStart[start + to + 1u];
-                if (begin == end) continue;
-                uint threshold = (to - from + 1u) * sampleThreshold(finer ? (pass - 1u) % level : level);
-                uint until = finer ? one + 1u : last;
-                for (uint a = one; a < until; ++a) {
-                    uint b = row + part == 0u && !finer ? a + 1u : begin;
-                    uint stop = end;
-                    if (stop - b > threshold) {
-                        // Visits a share of the others now and another share in the next round.
-                        uint shares = (stop - b + sampleSize - 1u) / sampleSize;
-                        b = b + sampleRound % shares * sampleSize;
-                        stop = min(b + sampleSize, stop);
-                        sampled = true;
-                    }
-                    visitRange(a, b, stop);
+                if (b == stop) continue;
+                if (stop - b > width * sampleThreshold(finer ? pass - 1u : level)) {
+                    // Visits a share of the others now and another share in the next round.
+                    uint shares = (stop - b + sampleSize - 1u) / sampleSize;
+                    b = b + sampleRound % shares * sampleSize;
+                    stop = min(b + sampleSize, stop);
+                    sampledHere = true;
                 }
+                visitRange(a, b, stop);
             }
         }
     }
+    if (sampledHere) sampled = sampled + 1u;
 }
 
-// `sampleRound` selects the share of the pairs of an overfull cell that is visited. Successive rounds visit all shares
-// in turn.
-void visitGroupNumber(uint group, uint sampleRound) {
-    uint level = levelOfGroup(group);
+// The number of cell `k` (0 .. 7) of a group among the cells of all levels.
+uint cellOfGroup(uint group, uint level, uint k) {
     uvec4 cells = cellsOf(level);
     uint gx = cells.x / 2u;
     uint gz = cells.z / 2u;
     uint at = group - firstCell(cells) / 8u;
-    uint x = at % gx;
-    uint y = at / (gx * gz);
-    uint z = (at / gx) % gz;
-    sampled = false;
-    for (uint k = 0u; k < 8u; ++k)
-        visitCell(level, 2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u), sampleRound);
+    uint x = 2u * (at % gx) + (k & 1u);
+    uint y = 2u * (at / (gx * gz)) + ((k >> 1u) & 1u);
+    uint z = 2u * ((at / gx) % gz) + (k >> 2u);
+    return cellIndex(cells, x, y, z);
+}
+
+// Visits the pairs of one of `shares` equal shares of the spheres of a group. `sampleRound` selects the share of the
+// pairs of an overfull cell that is visited. Successive rounds visit all of them in turn.
+void visitShareOfGroup(uint group, uint share, uint shares, uint sampleRound) {
+    uint level = levelOfGroup(group);
+    uvec4 cells = cellsOf(level);
+    uint spheres = 0u;
+    for (uint k = 0u; k < 8u; ++k) {
+        uint cell = cellOfGroup(group, level, k);
+        spheres = spheres + cellStart[cell + 1u] - cellStart[cell];
+    }
+    uint size = (spheres + shares - 1u) / shares;
+    uint from = min(share * size, spheres);
+    uint to = min(from + size, spheres);
+    uint before = 0u;  // spheres of the cells before
+    for (uint k = 0u; k < 8u && before < to; ++k) {
+        uint cell = cellOfGroup(group, level, k);
+        uint first = cellStart[cell];
+        uint count = cellStart[cell + 1u] - first;
+        uint a = first + max(from, before) - before;
+        uint end = first + min(to - before, count);
+        before = before + count;
+        if (a >= end) continue;
+        uint at = cell - firstCell(cells);
+        findRuns(cells, at % cells.x, at / (cells.x * cells.z), (at / cells.x) % cells.z);
+        for (; a < end; ++a) visitSphere(a, level, sampleRound);
+    }
 }
 
 // Visits all pairs of a bundle. The includer includes shared/bundles.h before.
@@ -111,6 +160,6 @@ void visitBundle(uint bundle, uint sampleRound) {
     for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) {
         BlockPlace block = blockOfBundle(bundle, level, part);
         for (uint k = 0u; k < 8u && block.exists; ++k)
-            visitGroupNumber(groupOfBlock(cellsOf(level), block, k), sampleRound);
+            visitShareOfGroup(groupOfBlock(cellsOf(level), block, k), 0u, 1u, sampleRound);
     }
 }

@@ -14,7 +14,7 @@
 // invocation; C++ has 1, 4, 8 or 16. Results do not depend on the number of lanes.
 //
 //   LANE_KERNEL(count) { ... }  Defines the body; `invocation` is a uintRow that runs over 0 .. count - 1.
-//   LANE_LOOP_KERNEL(count) { ... }  Defines the body for one invocation, which uses lanes for its own loops.
+//   LANE_BUNDLE_KERNEL(count) { ... }  BUNDLE_KERNEL (see below), whose threads use lanes for their own loops.
 //   LANES                       The number of lanes.
 //   ROWS_UP_TO(first, end)      The uintRow from `first` on. Lanes with numbers from `end` on do not exist.
 //   IN_ROWS(at)                 The mask of the lanes that exist.
@@ -47,9 +47,11 @@
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 //
-// A bundle of pairs is the work of a work group on a GPU, and of one thread in C++.
+// A bundle of pairs, or a group of cells, is the work of a work group on a GPU, and of one thread in C++.
 //
 //   BUNDLE_KERNEL(count) { ... }  Defines the body of all threads of a work group; `invocation` is the group's number.
+//                               It is launched with a number of work groups, as PAIR_KERNEL is.
+//   PAIR_THREADS                The number of threads of a work group of PAIR_KERNEL, which the device chooses.
 //   THREAD                      The number of the thread in its work group; 0 in C++.
 //   THREADS                     The number of threads of a work group; 1 in C++.
 //   FIRST_THREAD                True in one thread of the work group.
@@ -64,7 +66,10 @@
 #ifndef LOCAL_SIZE
 #define LOCAL_SIZE 64
 #endif
-layout(local_size_x = LOCAL_SIZE) in;
+#ifndef PAIR_THREADS
+#define PAIR_THREADS 64
+#endif
+#define THREADS_OF_GROUP(count) layout(local_size_x = count) in;
 layout(location = 0) uniform uint phase;
 
 #define NO_LOOP_LIMIT 0xffffffffu
@@ -76,6 +81,7 @@ layout(location = 0) uniform uint phase;
 #define HAS(feature) (feature)
 #define PARAMETERS layout(std140, binding = 0) uniform ParameterBlock { Parameters params; };
 #define KERNEL(count)                                                                            \
+    THREADS_OF_GROUP(LOCAL_SIZE)                                                                 \
     void kernelBody(uint invocation);                                                            \
     void main() {                                                                                \
         uint row = gl_NumWorkGroups.x * uint(LOCAL_SIZE);                                        \
@@ -113,7 +119,6 @@ layout(location = 0) uniform uint phase;
 #define IN_ROWS(at) true
 #define LANES 1u
 #define RARE
-#define LANE_LOOP_KERNEL(count) KERNEL(count)
 #define SUM_OF_LANES(value) (value)
 #define THREAD gl_LocalInvocationID.x
 #define THREADS uint(LOCAL_SIZE)
@@ -122,10 +127,11 @@ layout(location = 0) uniform uint phase;
 #define BARRIER            \
     memoryBarrierShared(); \
     barrier();
-#define BUFFER_BARRIER     \
-    memoryBarrierBuffer(); \
-    BARRIER
+#define BUFFER_BARRIER    \
+    groupMemoryBarrier(); \
+    barrier();
 #define BUNDLE_KERNEL(count)                                                                     \
+    THREADS_OF_GROUP(LOCAL_SIZE)                                                                 \
     void kernelBody(uint invocation);                                                            \
     void main() {                                                                                \
         uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;                   \
@@ -134,13 +140,14 @@ layout(location = 0) uniform uint phase;
     void kernelBody(uint invocation)
 // The next pair of each thread is read before the barrier. Pairs beyond the last batch are batches of one pair.
 #define PAIR_KERNEL                                                                              \
+    THREADS_OF_GROUP(PAIR_THREADS)                                                               \
     shared uint batchEnds[BATCHES];                                                              \
     void main() {                                                                                \
         uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;                   \
         if (index >= bundlesOfPhase()) return;                                                   \
         uint bundle = bundleOfPhase(index);                                                      \
         if (!beginBundle(bundle)) return;                                                        \
-        for (uint k = THREAD; k < BATCHES; k += THREADS) batchEnds[k] = endOfBatch(bundle, k);   \
+        for (uint k = THREAD; k < BATCHES; k += uint(PAIR_THREADS)) batchEnds[k] = endOfBatch(bundle, k);\
         BARRIER                                                                                  \
         uint from = firstPair(bundle);                                                           \
         uint end = endOfPairs(bundle);                                                           \
@@ -150,8 +157,8 @@ layout(location = 0) uniform uint phase;
             if (from == to) continue;                                                            \
             uvec2 pair = next;                                                                   \
             next = pairs[min(to + THREAD, params.pairCapacity - 1u)];                            \
-            for (uint k = from + THREAD; k < to; k += THREADS) {                                 \
-                if (k >= from + THREADS) pair = pairs[k];                                        \
+            for (uint k = from + THREAD; k < to; k += uint(PAIR_THREADS)) {                      \
+                if (k >= from + uint(PAIR_THREADS)) pair = pairs[k];                             \
                 visitPairs(pair.x, pair.y, k);                                                   \
             }                                                                                    \
             from = to;                                                                           \
@@ -160,6 +167,7 @@ layout(location = 0) uniform uint phase;
         endBundle(bundle);                                                                       \
     }
 #define LANE_PAIR_KERNEL PAIR_KERNEL
+#define LANE_BUNDLE_KERNEL(count) BUNDLE_KERNEL(count)
 
 bool anyLane(bool m) { return m; }
 bool noLane() { return false; }

@@ -144,7 +144,7 @@ struct SphereStatistics {
 #define INSPECTED_SURFACE 0x80000000u
 
 // Words of the `counters` buffer.
-#define COUNTER_REBUILD 0u      // lists are to be rebuilt
+#define COUNTER_REBUILD 0u      // bits REBUILD_DUE and REBUILD_SOON
 #define COUNTER_PAIRS 1u        // listed, with the space between bundles
 #define COUNTER_UNLISTED 2u     // bundles without room for their pairs
 #define COUNTER_NON_FINITE 3u   // not zero: the state of a sphere became non-finite
@@ -153,7 +153,7 @@ struct SphereStatistics {
 #define COUNTER_SUBSTEPS 6u     // since the start
 #define COUNTER_DROPPED_WALLS 7u  // contacts with walls without room for their memory, since the start
 #define COUNTER_LARGEST_MOTION 8u  // in a substep, in radii, as bits of a float; 0: none beyond SAFE_MOTION
-#define COUNTER_SAMPLED 9u      // cell groups of which only a sample of the pairs is listed
+#define COUNTER_SAMPLED 9u      // spheres of which only a sample of the pairs is listed
 #define COUNTER_OUTSIDE 10u     // spheres outside the bounds when the lists were built, without lost ones
 #define COUNTER_FRAME_FALLS 11u // not 0: the frame of the spheres outside moves
 #define COUNTER_FRAME_VELOCITY 12u  // three words, bits of floats (m/s)
@@ -172,6 +172,13 @@ struct SphereStatistics {
 #define COUNTER_OBSTACLE_PATH 38u // bits of a float (m): the most that obstacles have moved since the lists were built
 #define COUNTER_WORDS 39u
 
+// Bits of COUNTER_REBUILD. The host launches the kernels of a rebuild only if one of the first two was set at the end of
+// the substep before the last one.
+#define REBUILD_DUE 1u          // lists are to be rebuilt
+#define REBUILD_SOON 2u         // in the last substep, a sphere was SOON_SUBSTEPS away from asking for new lists
+#define LISTS_MISSING 4u        // there was no room for the present lists
+#define SOON_SUBSTEPS 4.0f      // twice as many as the host is ahead, because speeds change
+
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed
 #define RESTED_BEFORE 2u        // the same for the lists before, while the lists are rebuilt
@@ -183,20 +190,23 @@ struct SphereStatistics {
 // should hit.
 #define SAFE_MOTION 0.5f
 
-// Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, 0).
+// Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, count). Kernels over bundles
+// and over groups of cells have a work group for each.
 #define LAUNCH_SPHERES 0u
 #define LAUNCH_CELLS 1u
 #define LAUNCH_BLOCKS 2u
 #define LAUNCH_SUPERBLOCKS 3u
 #define LAUNCH_ONE 4u
-#define LAUNCH_GROUPS 5u
+#define LAUNCH_GROUPS 5u        // groups of cells
 #define LAUNCH_OUTSIDE 6u
-#define LAUNCH_BUNDLES 7u       // a work group for each bundle of all colours (list_fit.comp needs an invocation)
-#define LAUNCH_COLOUR 8u        // a work group for each bundle of one colour of the largest level
-#define LAUNCH_LOST_SPHERES 9u  // this row and the next: only if a contact is remembered that the new lists lack
-#define LAUNCH_LOST_COLOUR 10u
-#define LAUNCH_UNLISTED 11u     // in each substep while there are no lists: an invocation for each bundle of a colour
-#define LAUNCH_ROWS 12u
+#define LAUNCH_FIT 7u           // an invocation for each bundle
+#define LAUNCH_BUNDLES 8u       // bundles
+#define LAUNCH_COLOUR 9u        // bundles of one colour of the largest level
+#define LAUNCH_LEVEL 10u        // bundles of the largest level
+#define LAUNCH_LOST_SPHERES 11u // this row and the next: only if a contact is remembered that the new lists lack
+#define LAUNCH_LOST_COLOUR 12u  // bundles of one colour
+#define LAUNCH_UNLISTED 13u     // in each substep while there are no lists: an invocation for each bundle of a colour
+#define LAUNCH_ROWS 14u
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
 #define UNLISTED 0xffffffffu    // pair count of a group or a bundle without a list
@@ -212,6 +222,7 @@ struct SphereStatistics {
 #define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
 // Behind these words are rows of contact sums for each bundle and thread (shared/contact_sums.h).
 #define BUNDLE_THREADS 64u      // threads of the work group of a bundle
+#define MOST_PAIR_THREADS 256u  // of PAIR_KERNEL
 #define SUM_WORDS 8u            // virial xx yy zz xy xz yz (J s), collisions, 0
 // Sums over the contacts with each surface (shared/surface_sums.h).
 #define SURFACE_SUM_COPIES 16u

@@ -1,6 +1,6 @@
 // Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters`, `obstacles` and
 // `obstacleLists`. It has included shared/separation.h, shared/shapes.h, shared/moving.h, shared/mesh_room.h,
-// shared/fields.h, shared/outside.h, shared/drift.h and shared/falling_frame.h.
+// shared/fields.h, shared/outside.h, shared/drift.h, shared/falling_frame.h and shared/ask_for_lists.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
 // sphere must see all that it may meet within two steps.
@@ -94,22 +94,24 @@ float riskyMotion(vec4 sphere, vec3 v, vec4 reference) {
     return roomOf(reference) > 0.0f && used < 0.5f * roomOf(reference) ? 0.0f : speed * h;
 }
 
-// Returns true if the lists may lack a pair of this sphere, which has moved to `to` with velocity `v`.
-bool leavesLists(vec3 to, vec3 v, vec4 reference, float radius) {
-    if (HAS(PERIODIC) && mustWrap(to)) return true;
+// Returns true if the lists may lack a pair of this sphere, which has moved to `to` with velocity `v`, or will lack it
+// after `ahead` further substeps.
+bool leavesLists(vec3 to, vec3 v, vec4 reference, float radius, float ahead) {
+    float time = params.substep * ahead;
+    vec3 later = to + v * time;
+    if (HAS(PERIODIC) && mustWrap(later)) return true;
     vec3 since = to - vec3(reference);
     vec3 drifted = since - driftPath();
     float moved = sqrt(dot3(drifted, drifted));
-    if (HAS(BALANCED)) {
-        // The lists must hold to the end of the next substep.
-        vec3 relative = v - driftVelocity();
-        moved = moved + sqrt(dot3(relative, relative)) * params.substep;
-    }
+    vec3 relative = v - driftVelocity();
+    // In `balanced`, the lists must hold to the end of the next substep.
+    float held = time + (HAS(BALANCED) ? params.substep : 0.0f);
+    if (held > 0.0f) moved = moved + sqrt(dot3(relative, relative)) * held;
     bool leftMargin = moved > params.rebuildMove;
     if (roomOf(reference) == 0.0f) return leftMargin;
     if (leftMargin && !(beyondStrip(to) && beyondStrip(vec3(reference)))) return true;
-    if (lost(vec4(vec3(reference), radius))) return !lost(vec4(to, radius));
-    vec3 drift = since - framePath();
+    if (lost(vec4(vec3(reference), radius))) return !lost(vec4(later, radius));
+    vec3 drift = since - framePath() + (v - frameVelocity()) * time;
     float most = ROOM_SHARE * abs(roomOf(reference));
     // A sphere in a listed pair asks for new lists once it has moved by the width of the strip: a pair that parts need
     // not stay listed.
@@ -126,5 +128,6 @@ void checkMotion(uint sphere, vec4 x, vec3 v, vec3 to) {
         float motion = riskyMotion(withXyz(x, to), v, reference);
         if (motion > safe) atomicMax(counters[COUNTER_LARGEST_MOTION], floatBitsToUint(motion * SAFE_MOTION / safe));
     }
-    if (HAS(CONTACTS) && leavesLists(to, v, reference, storedRadius(x))) atomicOr(counters[COUNTER_REBUILD], 1u);
+    if (HAS(CONTACTS) && leavesLists(to, v, reference, storedRadius(x), SOON_SUBSTEPS))
+        askForLists(leavesLists(to, v, reference, storedRadius(x), 0.0f));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <deque>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -54,6 +55,28 @@ class CpuReadBack final : public ReadBack {
   private:
     std::vector<std::byte> bytes_;
     std::shared_ptr<int> underWay_;
+};
+
+class CpuWordQueue final : public WordQueue {
+  public:
+    void start(const Buffer& buffer, std::size_t offset) override {
+        checkRange("copy of a word", buffer, offset, sizeof(std::uint32_t));
+        if (words_.size() == most) programError("too many words are under way");
+        std::uint32_t word = 0;
+        const CpuBuffer& from = cpuBuffer(buffer);
+        from.words().load(from.data(), offset, std::as_writable_bytes(std::span(&word, 1)));
+        words_.push_back(word);
+    }
+    [[nodiscard]] std::size_t underWay() const override { return words_.size(); }
+    std::uint32_t take() override {
+        if (words_.empty()) programError("no word is under way");
+        const std::uint32_t word = words_.front();
+        words_.pop_front();
+        return word;
+    }
+
+  private:
+    std::deque<std::uint32_t> words_;
 };
 
 std::uint64_t featuresOf(std::span<const Define> defines) {
@@ -188,6 +211,10 @@ std::unique_ptr<ReadBack> CpuDevice::startReadBack(const Buffer& buffer, std::si
     std::vector<std::byte> copy(bytes);
     download(buffer, 0, copy);
     return std::make_unique<CpuReadBack>(std::move(copy), readBacks_);
+}
+
+std::unique_ptr<WordQueue> CpuDevice::createWordQueue() {
+    return std::make_unique<CpuWordQueue>();
 }
 
 void CpuDevice::beginTimer(unsigned slot) {

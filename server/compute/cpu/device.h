@@ -28,6 +28,7 @@ class CpuDevice final : public Device {
     void fill(Buffer& buffer, std::uint32_t value) override;
     void launch(const Launch& launch) override;
     std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) override;
+    std::unique_ptr<WordQueue> createWordQueue() override;
     void beginTimer(unsigned slot) override;
     void endTimer() override;
     std::vector<double> takeTimes() override;

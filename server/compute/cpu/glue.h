@@ -299,7 +299,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define IN_ROWS(at) firstLanes((at).live)
 #define LANES lanes
 #define SUM_OF_LANES(value) sumOf(value)
-#define LANE_LOOP_KERNEL(count) KERNEL(count)
+#define LANE_BUNDLE_KERNEL(count) KERNEL(count)
 #define RAISE_TO(where, word, value)                                                               \
     if (const mask raising = (where) && (value) > uintBitsToFloat(wordOf(word)); anyLane(raising)) \
         atomicMax(word, floatBitsToUint(largestOf(raising, value)));
@@ -343,7 +343,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define IN_ROWS(at) true
 #define LANES 1U
 #define SUM_OF_LANES(value) (value)
-#define LANE_LOOP_KERNEL(count) KERNEL(count)
+#define LANE_BUNDLE_KERNEL(count) KERNEL(count)
 #define RAISE_TO(where, word, value) \
     if (where) atomicMax(word, floatBitsToUint(value));
 #define LANE_KERNEL(count) KERNEL(count)

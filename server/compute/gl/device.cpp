@@ -9,6 +9,7 @@
 #include "compute/gl/buffer.h"
 #include "compute/gl/kernel.h"
 #include "compute/gl/limits.h"
+#include "compute/gl/word_queue.h"
 #include "core/heartbeat.h"
 
 namespace spherule::compute::gl {
@@ -39,8 +40,7 @@ void bindBuffers(State& state, const GlKernel& kernel, const Launch& launch) {
 }
 
 // Divides the groups into rows of equal length, so that the last row wastes little.
-void dispatch(std::uint32_t count, std::uint32_t groupSize) {
-    const std::uint32_t groups = count / groupSize + (count % groupSize != 0 ? 1 : 0);
+void dispatch(std::uint32_t groups) {
     const std::uint32_t rows = (groups + maxGroupsX - 1) / maxGroupsX;
     glDispatchCompute((groups + rows - 1) / rows, rows, 1);
 }
@@ -103,6 +103,7 @@ void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::b
         std::memcpy(uploads_.data() + uploadsUsed_, bytes.data(), part);
         glCopyNamedBufferSubData(uploads_.id(), glBuffer(buffer).id(), static_cast<GLintptr>(uploadsUsed_),
                                  static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(part));
+        context_->state().afterCopy();
         uploadsUsed_ += (part + 15) / 16 * 16;  // the next copy begins at a whole vector
         offset += part;
         bytes = bytes.subspan(part);
@@ -123,6 +124,7 @@ void GlDevice::download(const Buffer& buffer, std::size_t offset, std::span<std:
         }
         glCopyNamedBufferSubData(glBuffer(buffer).id(), downloads_.id(), static_cast<GLintptr>(offset), 0,
                                  static_cast<GLsizeiptr>(part));
+        context_->state().afterCopy();
         finish();
         std::memcpy(bytes.data(), downloads_.data(), part);
         offset += part;
@@ -134,6 +136,7 @@ void GlDevice::fill(Buffer& buffer, std::uint32_t value) {
     context_->use();
     context_->state().beforeCopy();
     glClearNamedBufferData(glBuffer(buffer).id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
+    context_->state().afterCopy();
 }
 
 void GlDevice::launch(const Launch& launch) {
@@ -142,7 +145,8 @@ void GlDevice::launch(const Launch& launch) {
     heartbeat::beat("launching a kernel");
     context_->use();
     auto& state = context_->state();
-    // First, because a launch may change its own arguments for the next one.
+    state.beforeLaunch();
+    // Before the slots, because a launch may change its own arguments for the next one.
     if (launch.arguments != nullptr) state.bindArguments(glBuffer(*launch.arguments).id());
     bindBuffers(state, kernel, launch);
     state.useProgram(kernel.program());
@@ -153,7 +157,7 @@ void GlDevice::launch(const Launch& launch) {
     } else {
         if (launch.count == 0) return;
         kernel.setUniforms(launch.phase, launch.count);
-        dispatch(launch.count, kernel.groupSize());
+        dispatch(kernel.groupsOf(launch.count));
     }
     state.afterLaunch();
     fences_.launched();
@@ -163,6 +167,11 @@ std::unique_ptr<ReadBack> GlDevice::startReadBack(const Buffer& buffer, std::siz
     checkRange("read back", buffer, 0, bytes);
     context_->use();
     return readBacks_->start(glBuffer(buffer).id(), bytes);
+}
+
+std::unique_ptr<WordQueue> GlDevice::createWordQueue() {
+    context_->use();
+    return std::make_unique<GlWordQueue>(context_);
 }
 
 void GlDevice::beginTimer(unsigned slot) {

@@ -15,6 +15,12 @@ constexpr GLuint64 look = 1'000'000'000;  // ns; then checks for a lost context,
 
 }  // namespace
 
+void waitFor(Context& context, GLsync fence) {
+    heartbeat::beat("waiting for the device");
+    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, look) == GL_TIMEOUT_EXPIRED && !context.resetCause()) {
+    }
+}
+
 Fences::Fences(std::shared_ptr<Context> context) : context_(std::move(context)) {}
 
 Fences::~Fences() {
@@ -34,10 +40,7 @@ void Fences::wait() {
 }
 
 void Fences::waitForFirst() {
-    heartbeat::beat("waiting for the device");
-    while (glClientWaitSync(fences_.front(), GL_SYNC_FLUSH_COMMANDS_BIT, look) == GL_TIMEOUT_EXPIRED &&
-           !context_->resetCause()) {
-    }
+    waitFor(*context_, fences_.front());
     glDeleteSync(fences_.front());
     fences_.pop_front();
 }

@@ -7,6 +7,9 @@
 
 namespace spherule::compute::gl {
 
+// Waits for a fence, or until the context is lost. The context must be current.
+void waitFor(Context& context, GLsync fence);
+
 // Waits for the device. Sends a heartbeat (core/heartbeat.h) for each part of the work that has ended, so that a wait
 // may be long while the device makes progress.
 class Fences {

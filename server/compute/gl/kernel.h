@@ -32,7 +32,10 @@ class GlKernel final : public Kernel {
     [[nodiscard]] GLuint program() const { return program_; }
     [[nodiscard]] const std::vector<Slot>& slots() const { return slots_; }
     [[nodiscard]] bool wantsParameters() const { return wantsParameters_; }
-    [[nodiscard]] std::uint32_t groupSize() const { return groupSize_; }  // invocations per group
+    // Returns the number of work groups of a launch of `count`: see Launch.
+    [[nodiscard]] std::uint32_t groupsOf(std::uint32_t count) const {
+        return countsGroups_ ? count : count / groupSize_ + (count % groupSize_ != 0 ? 1 : 0);
+    }
 
     // Sets `phase` and `invocations` if the kernel uses them.
     void setUniforms(std::uint32_t phase, std::uint32_t invocations) const;
@@ -61,7 +64,8 @@ class GlKernel final : public Kernel {
     GLuint program_ = 0;
     std::vector<Slot> slots_;
     bool wantsParameters_ = false;
-    std::uint32_t groupSize_ = 0;
+    bool countsGroups_ = false;
+    std::uint32_t groupSize_ = 0;          // invocations
     mutable Uniform phase_, invocations_;  // with the values that GL holds, to skip redundant calls
 };
 

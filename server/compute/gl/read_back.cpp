@@ -57,6 +57,7 @@ std::unique_ptr<ReadBack> ReadBackPlaces::start(GLuint source, std::size_t bytes
     if (free == places_.end() || !free->staging.reserve(bytes)) return nullptr;
     context_->state().beforeCopy();
     glCopyNamedBufferSubData(source, free->staging.id(), 0, 0, static_cast<GLsizeiptr>(bytes));
+    context_->state().afterCopy();
     return std::make_unique<GlReadBack>(shared_from_this(), *free, bytes);
 }
 

@@ -49,4 +49,12 @@ void State::beforeCopy() {
     if (std::exchange(launched_, false)) glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
+void State::afterCopy() {
+    copied_ = true;
+}
+
+void State::beforeLaunch() {
+    if (std::exchange(copied_, false)) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 }  // namespace spherule::compute::gl

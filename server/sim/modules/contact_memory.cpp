@@ -16,7 +16,7 @@ const Module moduleContactMemory{
             using enum Array;
             plan.arrays({ContactX, ContactY, ContactZ, CarriedCount, Carried});
             if (plan.has(Feature::Balanced) && plan.has(Feature::Friction)) plan.arrays({TorqueX, TorqueY, TorqueZ});
-            plan.overPairsIf(Stage::Carry, Pass::ContactMemory, "contacts_carry.comp", LAUNCH_COLOUR);
+            plan.onRebuild(Stage::Carry, Pass::ContactMemory, "contacts_carry.comp", LAUNCH_BUNDLES);
             plan.onRebuild(Stage::Restore, Pass::ContactMemory, "contacts_restore.comp", LAUNCH_BUNDLES);
             if (!plan.has(Feature::Balanced)) return;
             // If the new lists lack a contact, its impulse is no longer among the impulses that its spheres hold.

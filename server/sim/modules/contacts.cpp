@@ -21,18 +21,20 @@ void declareLists(PlanBuilder& plan) {
                  SlotOf,      ListReference, SortedX,   SortedY,       SortedZ,      GroupRange,  Candidates,
                  BusyBatches, Pairs,         Bundles,   DispatchSizes, DispatchArgs, Overlaps});
     if (plan.has(Feature::Radii)) plan.arrays({SortedRadius});
-    plan.once(Stage::Rebuild, Pass::Grid, "rebuild_decide.comp");
+    // The scratch column is free until the columns are sorted.
+    const std::vector<Alias> cellOfSphere{{"cellOfSphere", SortScratchWords}};
+    plan.decidesRebuild(Stage::Rebuild, Pass::Grid, "rebuild_decide.comp");
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_clear.comp", LAUNCH_CELLS);
-    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_count.comp", LAUNCH_SPHERES);
+    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_count.comp", LAUNCH_SPHERES, cellOfSphere);
     plan.prefixSumOnRebuild(Stage::SortCells, Pass::Grid, CellStart, {LAUNCH_BLOCKS, LAUNCH_SUPERBLOCKS},
                             plan.plan().grid.all() + 1);
-    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_scatter.comp", LAUNCH_SPHERES);
+    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_scatter.comp", LAUNCH_SPHERES, cellOfSphere);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_order.comp", LAUNCH_CELLS);
     plan.onRebuild(Stage::Reference, Pass::Grid, "list_reference.comp", LAUNCH_SPHERES);
     plan.onRebuild(Stage::Reference, Pass::Grid, "list_drift.comp", LAUNCH_ONE);
     plan.onRebuild(Stage::Lists, Pass::Lists, "list_build.comp", LAUNCH_GROUPS);
-    plan.overPairsIf(Stage::Lists, Pass::Lists, "list_order.comp", LAUNCH_COLOUR);
-    plan.onRebuild(Stage::Lists, Pass::Lists, "list_fit.comp", LAUNCH_BUNDLES);
+    plan.overLevelsOnRebuild(Stage::Lists, Pass::Lists, "list_order.comp");
+    plan.onRebuild(Stage::Lists, Pass::Lists, "list_fit.comp", LAUNCH_FIT);
     plan.statisticsOfBundles("statistics_contacts.comp", {{"touching", touchingArray}});
 }
 

@@ -24,7 +24,7 @@ void PlanBuilder::overSpheres(Stage stage, Pass pass, std::string_view kernel, s
 }
 
 void PlanBuilder::overBundles(Stage stage, Pass pass, std::string_view kernel) {
-    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = BUNDLE_THREADS * plan_.grid.bundles()}});
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.grid.bundles()}});
 }
 
 void PlanBuilder::overStatisticBlocks(Stage stage, Pass pass, std::string_view kernel) {
@@ -38,7 +38,7 @@ void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel) {
             staged_.push_back({stage,
                                {.pass = pass,
                                 .kernel = kernel,
-                                .count = BUNDLE_THREADS * plan_.grid.levels[level].bundlesOfColour(),
+                                .count = plan_.grid.levels[level].bundlesOfColour(),
                                 .phase = 8 * level + colour}});
 }
 
@@ -48,8 +48,20 @@ void PlanBuilder::overPairsIf(Stage stage, Pass pass, std::string_view kernel, s
     for (std::size_t k = first; k < staged_.size(); ++k) staged_[k].launch.launchRow = row;
 }
 
+void PlanBuilder::overLevelsOnRebuild(Stage stage, Pass pass, std::string_view kernel) {
+    for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level) {
+        onRebuild(stage, pass, kernel, LAUNCH_LEVEL);
+        staged_.back().launch.phase = level;
+    }
+}
+
 void PlanBuilder::once(Stage stage, Pass pass, std::string_view kernel) {
     staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = 1}});
+}
+
+void PlanBuilder::decidesRebuild(Stage stage, Pass pass, std::string_view kernel) {
+    once(stage, pass, kernel);
+    staged_.back().launch.decidesRebuild = true;
 }
 
 void PlanBuilder::onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row,

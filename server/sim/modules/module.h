@@ -62,7 +62,11 @@ class PlanBuilder {
     void overPairs(Stage stage, Pass pass, std::string_view kernel);
     // The same while row `row` of the launch table is not empty.
     void overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row);
+    // Runs while the lists are rebuilt, a work group for each bundle of a level, level after level.
+    void overLevelsOnRebuild(Stage stage, Pass pass, std::string_view kernel);
     void once(Stage stage, Pass pass, std::string_view kernel);
+    // Runs once. Its phase is 1 if the launches of a rebuild follow, else 0.
+    void decidesRebuild(Stage stage, Pass pass, std::string_view kernel);
     // Runs while the lists are rebuilt. Row `row` of the launch table holds the number of invocations.
     void onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::vector<Alias> aliases = {});
     // Turns the values of an array into exclusive prefix sums, in blocks and in blocks of blocks. `rows` of the launch

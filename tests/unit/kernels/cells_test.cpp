@@ -24,6 +24,7 @@ struct Cells {
         std::shuffle(id.begin(), id.end(), std::mt19937(2));
         start.resize(65);
         place.resize(position.size());
+        cells.resize(position.size());
         order.resize(position.size());
     }
 
@@ -32,6 +33,7 @@ struct Cells {
         const Slot slots[] = {{"position", position},
                               {"cellStart", start},
                               {"rankInCell", place},
+                              {"cellOfSphere", cells},
                               {"cellOrder", order},
                               {"idAndMaterial", id}};
         launch("cell_clear", slots, how);
@@ -49,7 +51,7 @@ struct Cells {
 
     layout::Parameters parameters{};
     std::vector<vec4> position;
-    std::vector<uint> id, start, place, order;
+    std::vector<uint> id, start, place, cells, order;
 };
 
 TEST(KernelsAsCpp, SpheresOfACrowdedCellAreSortedById) {

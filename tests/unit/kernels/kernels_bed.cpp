@@ -15,10 +15,16 @@ constexpr uint cells = 8;        // per axis
 constexpr uint idMask = 0xffffff;
 constexpr uint wallRows = 4;  // one for each axis of the bounds, one for an obstacle
 
+// As the simulation's plan: see server/sim/modules/contact_memory.cpp.
+std::uint64_t withContactMemory(std::uint64_t has) {
+    const bool remembers = (has & Feature::BALANCED) != 0 || (has & Feature::FRICTION) != 0;
+    return (has & Feature::CONTACTS) != 0 && remembers ? has | Feature::CONTACT_MEMORY : has;
+}
+
 }  // namespace
 
 Bed::Bed(std::vector<vec4> places, std::uint64_t has)
-    : count(static_cast<uint>(places.size())), features(has), position(std::move(places)) {
+    : count(static_cast<uint>(places.size())), features(withContactMemory(has)), position(std::move(places)) {
     parameters.spheres = count;
     parameters.cells = uvec4(cells, cells, cells, cells * cells * cells);
     parameters.levels = 1;
@@ -42,8 +48,9 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
                          &heldSpin, &acceleration, &listReference, &sortScratch_})
         column->assign(count, vec4(0));
     velocity.assign(count, vec4(0, 0, 0, 1));
-    for (auto* column : {&idAndMaterial, &rankInCell_, &slots_, &busyBatches_, &carriedCount_, &sortScratchWords_})
+    for (auto* column : {&idAndMaterial, &rankInCell_, &slots_, &carriedCount_, &sortScratchWords_})
         column->resize(count);
+    busyBatches_.resize(std::size_t{8} * count);
     cellOrder_.resize(std::max(count, MOST_OUTSIDE));
     std::iota(idAndMaterial.begin(), idAndMaterial.end(), 0U);
     nearObstacles.resize(count);  // without room: each sphere visits all obstacles
@@ -82,6 +89,7 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"nearObstacles", nearObstacles},
                           {"cellStart", cellStart},
                           {"rankInCell", rankInCell_},
+                          {"cellOfSphere", sortScratchWords_},
                           {"cellOrder", cellOrder_},
                           {"slotOf", slots_},
                           {"busyBatches", busyBatches_},
@@ -121,9 +129,9 @@ void Bed::setObstacles(uint number, uint shape) {
 }
 
 void Bed::rebuild() {
-    counters[COUNTER_REBUILD] = 1;
-    run("rebuild_decide");
-    sweep("contacts_carry");
+    counters[COUNTER_REBUILD] = REBUILD_DUE;
+    run("rebuild_decide", 1);
+    run("contacts_carry");
     run("cell_clear");
     run("cell_count");
     prefixSum(cellStart);
@@ -133,7 +141,7 @@ void Bed::rebuild() {
     run("list_reference");
     run("list_drift");
     run("list_build");
-    sweep("list_order");
+    run("list_order");
     run("list_fit");
     run("contacts_restore");
     run("contacts_lost");
@@ -174,7 +182,7 @@ void Bed::finish() {
 }
 
 void Bed::substep() {
-    if (counters[COUNTER_REBUILD] != 0)
+    if ((counters[COUNTER_REBUILD] & REBUILD_DUE) != 0)
         rebuild();
     else
         run("rebuild_decide");

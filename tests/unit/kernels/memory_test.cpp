@@ -159,8 +159,9 @@ TEST(KernelsAsCpp, WithoutListsContactsForget) {
     for (const vec4& held : bed.heldVelocity) EXPECT_EQ(vec3(held), vec3(0));
 }
 
-// 40 spheres in one place own more contacts than they carry.
-TEST(KernelsAsCpp, CrowdKeepsAsManyContactsAsItCarries) {
+// 40 spheres in one place own up to 39 contacts. Those that own too many lose all: which of them have room depends on the
+// order of the threads.
+TEST(KernelsAsCpp, CrowdLosesTheContactsOfSpheresThatOwnTooMany) {
     std::vector<vec4> places(40, vec4(0.5F, 0.5F, 0.5F, 0.5F));
     for (std::size_t k = 0; k < places.size(); ++k) places[k].x += 1e-3F * static_cast<float>(k);
     Bed bed(places, Feature::BALANCED | Feature::CONTACTS | Feature::FRICTION);
@@ -177,7 +178,7 @@ TEST(KernelsAsCpp, CrowdKeepsAsManyContactsAsItCarries) {
     }
     uint all = 0;
     for (uint id = 0; id < 40; ++id) {
-        EXPECT_EQ(kept[id], std::min(39 - id, CARRIED_MOST)) << id;
+        EXPECT_EQ(kept[id], 39 - id <= CARRIED_MOST ? 39 - id : 0) << id;
         all += kept[id];
     }
     EXPECT_EQ(bed.counters[COUNTER_RESTORED], all);

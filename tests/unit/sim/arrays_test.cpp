@@ -19,8 +19,8 @@ namespace {
 using compute::BufferDeclaration;
 
 // Buffers that are bound to different arrays; each launch gives the array.
-const std::set<std::string_view> general{"values",   "sums",    "column", "velocityBeforeSolve",
-                                         "touching", "deepest", "figures"};
+const std::set<std::string_view> general{"values",   "sums",    "column",  "velocityBeforeSolve",
+                                         "touching", "deepest", "figures", "cellOfSphere"};
 
 bool encodes(std::string_view kernel) {
     return kernel.starts_with("codec_");

@@ -48,13 +48,8 @@ TEST(SimLaunches, CoverAllInvocationsOfTheirKernels) {
             const auto kernels = compute::cpu::floatKernels();
             const auto kernel = std::ranges::find(kernels, launch.kernel, &compute::cpu::Entry::name);
             ASSERT_NE(kernel, kernels.end()) << launch.kernel;
-            const std::string_view text = shaders().find(launch.kernel).value();
-            const bool ofBundles = text.find("PAIR_KERNEL") != std::string_view::npos ||
-                                   text.find("BUNDLE_KERNEL") != std::string_view::npos;
-            const std::uint32_t wanted =
-                (ofBundles ? BUNDLE_THREADS : 1) *
-                kernel->count(
-                    {.slots = {}, .parameters = &parameters, .phase = launch.phase, .features = bitsOf(plan.features)});
+            const std::uint32_t wanted = kernel->count(
+                {.slots = {}, .parameters = &parameters, .phase = launch.phase, .features = bitsOf(plan.features)});
             const std::uint32_t launched = launch.launchRow ? plan.dispatchSizes.at(*launch.launchRow) : launch.count;
             EXPECT_GT(wanted, 0U) << launch.kernel;
             EXPECT_GE(launched, wanted) << launch.kernel << " of " << model << ", phase " << launch.phase;

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "sim/pipeline.h"
+
+// The launches of a substep.
+namespace spherule::sim {
+
+// The next lists of overfull cells depend on two counters, which must count only the lists of substeps.
+void Pipeline::rebuildLists() {
+    const auto before = read<std::uint32_t>(Array::Counters);
+    launchesRebuild_ = listsMayBeMissing_ = true;
+    run(substep_, LaunchSet::Rebuild);
+    for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
+        write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
+    listsPending_ = false;
+}
+
+void Pipeline::substep(bool observed) {
+    if (pulling_) run(pulls_, LaunchSet::Substep);
+    chooseLaunches();
+    run(substep_, observed ? LaunchSet::ObservedSubstep : LaunchSet::Substep);
+    if (rebuildWords_) rebuildWords_->start(buffer(Array::Counters), COUNTER_REBUILD * sizeof(std::uint32_t));
+    listsPending_ = false;
+    impactsPending_ = impactsPending_ || observed;
+}
+
+// Decides by COUNTER_REBUILD at the end of the substep before the last one. So the host does not wait for the last one,
+// and the decision is the same on all devices.
+void Pipeline::chooseLaunches() {
+    const bool rebuiltBefore = launchesRebuild_;
+    std::uint32_t word = REBUILD_SOON | LISTS_MISSING;
+    if (rebuildWords_ && rebuildWords_->underWay() > 1) word = rebuildWords_->take();
+    if (unforeseen_ > 0) {
+        --unforeseen_;
+        word |= REBUILD_SOON;
+    }
+    launchesRebuild_ = (word & (REBUILD_DUE | REBUILD_SOON)) != 0;
+    listsMayBeMissing_ = launchesRebuild_ || rebuiltBefore || (word & LISTS_MISSING) != 0;
+}
+
+std::uint32_t Pipeline::longestChain() {
+    std::uint32_t chain = 0;
+    const auto words = read<std::uint32_t>(Array::Bundles, std::size_t{plan_.grid.bundles()} * BUNDLE_WORDS);
+    for (const Level& level : plan_.grid.levels)
+        for (std::uint32_t colour = 0; colour < 8; ++colour) {
+            std::uint32_t longest = 0;
+            for (std::uint32_t k = 0; k < level.bundlesOfColour(); ++k) {
+                const std::size_t bundle = level.firstBundle + colour * level.bundlesOfColour() + k;
+                const auto row = std::span(words).subspan(bundle * BUNDLE_WORDS, BUNDLE_WORDS);
+                if (row[1] == 0 || row[1] == UNLISTED) continue;
+                const auto ends = row.subspan(4, BATCHES);  // of the batches
+                std::uint32_t batches = row[4 + BATCHES] - ends.back();
+                std::uint32_t begin = row[0];
+                for (const std::uint32_t end : ends) batches += std::exchange(begin, end) != end ? 1 : 0;
+                longest = std::max(longest, batches);
+            }
+            chain += longest;
+        }
+    return chain;
+}
+
+void Pipeline::run(const std::vector<BoundLaunch>& launches, LaunchSet set) {
+    const auto skipped = [&](const LaunchSpec& spec) {
+        if (spec.launchRow && !(*spec.launchRow == LAUNCH_UNLISTED ? listsMayBeMissing_ : launchesRebuild_))
+            return true;
+        const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::ContactMemory;
+        switch (set) {
+            case LaunchSet::Rebuild:
+                return !rebuild;
+            case LaunchSet::Waking:
+                return !spec.waking;
+            case LaunchSet::Substep:
+                return spec.observing;
+            case LaunchSet::ObservedSubstep:
+                break;
+        }
+        return false;
+    };
+    std::optional<Pass> timed;
+    std::array<compute::Buffer*, compute::maxKernelBuffers> bound{};
+    for (const BoundLaunch& one : launches) {
+        const LaunchSpec& spec = *one.spec;
+        if (skipped(spec)) continue;
+        if (timed != spec.pass) {
+            if (timed) device_.endTimer();
+            device_.beginTimer(static_cast<unsigned>(spec.pass));
+            timed = spec.pass;
+        }
+        for (std::size_t slot = 0; slot < one.arrays.size(); ++slot) bound[slot] = &buffer(one.arrays[slot]);
+        compute::Launch launch{.kernel = one.kernel,
+                               .buffers = std::span(bound.data(), one.arrays.size()),
+                               .parameters = parameters_.get(),
+                               .phase = spec.decidesRebuild ? std::uint32_t{launchesRebuild_} : spec.phase,
+                               .count = spec.count};
+        if (spec.launchRow) {
+            launch.arguments = &buffer(Array::DispatchArgs);
+            launch.argumentsOffset = *spec.launchRow * sizeof(glm::uvec4);
+        }
+        device_.launch(launch);
+        ++launches_;
+    }
+    if (timed) device_.endTimer();
+}
+
+}  // namespace spherule::sim

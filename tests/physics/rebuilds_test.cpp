@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "sim/layout.h"
+#include "support.h"
+
+// The host launches the kernels of a rebuild only in substeps in which one may be due.
+namespace spherule::physics {
+namespace {
+
+using sim::Array;
+
+std::vector<std::uint32_t> countersOf(sim::Simulation& simulation) {
+    return simulation.pipeline().read<std::uint32_t>(Array::Counters);
+}
+
+void advance(sim::Simulation& simulation) {
+    if (auto done = simulation.advance(); !done) throw std::runtime_error(done.error().text());
+}
+
+// A heavy sphere hits a row of light ones at rest, each lighter than the one before, from `speed` on faster and faster.
+scene::Scene row(double speed) {
+    scene::Scene scene = fineStepSpace(20);
+    setRestitution(scene, 1);
+    float radius = 0.4F;
+    double x = -6;
+    for (int k = 0; k < 6; ++k) {
+        scene.spheres.push_back({.position = {x, 0, 0}, .radius = radius});
+        x += 1.6 * static_cast<double>(radius);
+        radius *= 0.7F;
+        x += static_cast<double>(radius);
+    }
+    scene.spheres[0].velocity = {static_cast<float>(speed), 0, 0};
+    scene.spheres[0].position.x -= 1;
+    return scene;
+}
+
+// Returns in how many substeps a rebuild was due but had not been launched.
+unsigned lateRebuilds(sim::Simulation& simulation, unsigned substeps) {
+    const bool balanced = simulation.plan().features.has(sim::Feature::Balanced);
+    unsigned late = 0;
+    std::vector<std::uint32_t> before = countersOf(simulation);
+    for (unsigned k = 0; k < substeps; ++k) {
+        advance(simulation);
+        const std::vector<std::uint32_t> now = countersOf(simulation);
+        const bool rebuilt = now[COUNTER_REBUILDS] != before[COUNTER_REBUILDS];
+        // `balanced` asks at the end of a substep, the others before the lists are used.
+        const bool due = ((balanced ? before : now)[COUNTER_REBUILD] & REBUILD_DUE) != 0;
+        late += due && !rebuilt && k > 0 ? 1 : 0;
+        before = now;
+    }
+    return late;
+}
+
+TEST(Rebuilds, AreLaunchedWhenTheyAreDue) {
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate})
+        for (const char* const name : {"box-4k", "billiards", "rapids-3k", "pour"}) {
+            const auto simulation = simulate(named(name, {.model = model}));
+            EXPECT_EQ(lateRebuilds(*simulation, 200), 0U) << name << ", " << scene::nameOf(model);
+            EXPECT_GT(countersOf(*simulation)[COUNTER_REBUILDS], 0U);
+        }
+}
+
+TEST(Rebuilds, AreLaunchedWhenAnImpactSpeedsUpRestingSpheres) {
+    for (const double speed : {1.0, 3.0, 10.0, 20.0, 30.0, 50.0, 70.0, 90.0}) {
+        const auto simulation = simulate(row(speed));
+        EXPECT_EQ(lateRebuilds(*simulation, 2000 / static_cast<unsigned>(speed) + 100), 0U) << speed;
+        EXPECT_GT(simulation->snapshot().velocity.back().x, speed) << "the last sphere was hit";
+    }
+}
+
+TEST(Rebuilds, AreNotLaunchedInABedAtRest) {
+    scene::Scene scene = named("box-4k");
+    scene.sleep.enabled = false;
+    for (scene::Material& material : scene.materials) material.friction = 0.4;
+    const auto simulation = simulate(scene);
+    run(*simulation, 3);
+    const sim::SubstepCost usual = sim::costOf(simulation->plan(), false);
+    const sim::SubstepCost rebuilding = sim::costOf(simulation->plan(), true);
+    EXPECT_LE(usual.launches, 30U);
+    constexpr unsigned substeps = 480;
+    unsigned without = 0;
+    for (unsigned k = 0; k < substeps; ++k) {
+        const std::uint64_t before = simulation->pipeline().launches();
+        advance(*simulation);
+        const std::uint64_t launches = simulation->pipeline().launches() - before;
+        // In the substep after, the host does not know yet whether the new lists have room for all pairs.
+        EXPECT_TRUE(launches == usual.launches || launches == usual.launches + 8 || launches == rebuilding.launches)
+            << launches;
+        without += launches <= 30 ? 1 : 0;
+    }
+    EXPECT_GT(without, substeps / 2);
+}
+
+TEST(Rebuilds, AllowFewBatchesInARow) {
+    const auto simulation = simulate(named("box-4k"));
+    run(*simulation, 1);
+    EXPECT_LE(simulation->pipeline().longestChain(), 160U);
+    EXPECT_GT(simulation->pipeline().longestChain(), 100U) << "a dense bed";
+}
+
+}  // namespace
+}  // namespace spherule::physics
