@@ -37,7 +37,7 @@ BUNDLE_KERNEL(params.bundles) {
             awake = activeBlock[blockNumber(cells, x, y, z)] == substep;
         }
     }
-    if (awake) anyAwake = 1u;
+    if (awake) atomicOr(anyAwake, 1u);
     BARRIER
     if (FIRST_THREAD) bundles[invocation * BUNDLE_WORDS + 2u] = anyAwake;
 }

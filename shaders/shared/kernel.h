@@ -45,6 +45,7 @@
 //                               and `more`, any value.
 //   LANE_OF(value, lane)        The value of one lane of a real, a real3 or uints. Uints can be set.
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
+//   RAISE_WORD_TO(word, value)      Raises a word to a uint. Other invocations may raise it at the same time.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 //
 // A bundle of pairs, or a group of cells, is the work of a work group on a GPU, and of one thread in C++.
@@ -110,6 +111,7 @@ layout(location = 0) uniform uint phase;
 #define EACH_LANE(where, function, at) if (where) function(at);
 #define RAISE_TO(where, word, value)                                                             \
     if (where && word < floatBitsToUint(value)) atomicMax(word, floatBitsToUint(value));
+#define RAISE_WORD_TO(word, value) if (word < value) atomicMax(word, value);
 #define LANE_KERNEL(count) KERNEL(count)
 #define EACH_LANE_WITH(where, flag, function, at) if (where) function(at, flag);
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) if (where) function(number, more, a, b);
