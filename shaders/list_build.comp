@@ -83,13 +83,13 @@ void visitRange(uint a, uint begin, uint end) {
 // Finds room for the pairs of the group.
 void reserve() {
     groupPairs = 0u;
-    for (uint thread = 0u; thread < THREADS; ++thread) {
-        uint count = firstOfThread[thread];
-        firstOfThread[thread] = groupPairs;
+    for (uint k = 0u; k < THREADS; ++k) {
+        uint count = firstOfThread[k];
+        firstOfThread[k] = groupPairs;
         groupPairs = groupPairs + count;
     }
     groupStart = 0u;
-    if (groupPairs > 0u && counters[COUNTER_CANDIDATES] < MOST_COUNTED)
+    if (groupPairs > 0u && SEEN(counters[COUNTER_CANDIDATES]) < MOST_COUNTED)
         groupStart = atomicAdd(counters[COUNTER_CANDIDATES], groupPairs);
     // If it does not fit, list_order.comp makes no lists.
     fits = groupPairs <= params.pairCapacity && groupStart <= params.pairCapacity - groupPairs;
@@ -121,7 +121,7 @@ LANE_BUNDLE_KERNEL(allCells() / 8u) {
     if (fits && count <= LOCAL_PAIRS)
         for (; found < count; ++found) candidates[base + found] = local[found];
     // Mesa's software renderer ends the loops of an invocation after 65,535 iterations together.
-    if (fits && found < count) cutShort = 1u;
+    if (fits && found < count) atomicOr(cutShort, 1u);
     BARRIER
     if (!FIRST_THREAD) return;
     if (cutShort != 0u) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);

@@ -27,7 +27,7 @@ BUFFER(writeonly, uint, cellOrder)
 #include "shared/carried.h"
 
 void raise(uint word, uint key) {
-    RAISE_WORD_TO(counters[word], key)
+    if (SEEN(counters[word]) < key) atomicMax(counters[word], key);
 }
 
 // The keys of x, y, z, then of -x, -y, -z.

@@ -56,6 +56,8 @@ KERNEL(1u) {
         dispatchArgs[row] = launched ? dispatchSizes[row] : uvec4(0u, 1u, 1u, 0u);
     }
     uint kept = rebuild ? 0u : counters[COUNTER_REBUILD] & (REBUILD_DUE | LISTS_MISSING);
+    // In `fast` and `accurate`, spheres have moved in this substep already.
+    if (!HAS(BALANCED) && (counters[COUNTER_REBUILD] & REBUILD_SOON) != 0u) kept = kept | REBUILD_WAS_SOON;
     counters[COUNTER_REBUILD] = kept | (soon ? REBUILD_SOON : 0u);
     if (rebuild) {
         counters[COUNTER_PAIRS] = 0u;

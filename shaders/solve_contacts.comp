@@ -27,12 +27,18 @@ BUFFER(restrict, float, torqueY)
 BUFFER(restrict, float, torqueZ)
 
 PRIVATE(uint, remembered)  // the first element of the contact memory of the present lists
+PRIVATE(uintRow, memory)   // of the contacts that are solved
 
 #include "shared/bundle_words.h"
 #include "shared/contact.h"
 #include "shared/friction.h"
 #include "shared/contact_law.h"
 #include "shared/contact_sums.h"
+
+void readHeldTorque() {
+    heldTorque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));
+}
+
 #include "shared/contact_pair.h"
 
 bool beginBundle(uint bundle) {
@@ -68,9 +74,8 @@ RARE void expectPairs(uint first, uint count) {
 }
 
 void visitPairs(slots a, slots b, uintRow at) {
-    uintRow memory = at + remembered;
+    memory = at + remembered;
     heldImpulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
-    if (HAS(FRICTION)) heldTorque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));
     if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
     SET_ALL(contactX, memory, heldImpulse.x)
     SET_ALL(contactY, memory, heldImpulse.y)

@@ -25,11 +25,15 @@ BUFFER(restrict, uint, bundles)
 #include "shared/friction.h"
 #include "shared/contact_law.h"
 #include "shared/contact_sums.h"
+
+void readHeldTorque() {
+    heldTorque = real3(0.0f, 0.0f, 0.0f);
+}
+
 #include "shared/contact_pair.h"
 
 void visitPair(uint a, uint b) {
     heldImpulse = real3(0.0f, 0.0f, 0.0f);
-    heldTorque = heldImpulse;
     solvePairs(true, a, b, false);
 }
 

@@ -36,7 +36,7 @@ void Pipeline::chooseLaunches() {
         --unforeseen_;
         word |= REBUILD_SOON;
     }
-    launchesRebuild_ = (word & (REBUILD_DUE | REBUILD_SOON)) != 0;
+    launchesRebuild_ = (word & (REBUILD_DUE | REBUILD_SOON | REBUILD_WAS_SOON)) != 0;
     listsMayBeMissing_ = launchesRebuild_ || rebuiltBefore || (word & LISTS_MISSING) != 0;
 }
 

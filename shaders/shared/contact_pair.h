@@ -1,6 +1,7 @@
 // Solves the contact of two spheres by the law of the model `balanced`. The includer binds `position`, `velocity`,
 // `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
-// included shared/separation.h, shared/contact_law.h and shared/contact_sums.h.
+// included shared/separation.h, shared/contact_law.h and shared/contact_sums.h. It defines `void readHeldTorque()`, which
+// sets `heldTorque` of the contacts that are solved. Most listed pairs touch nothing and need no torque.
 
 RARE real4 contactOfMaterials(slots a, slots b) {
     uints index = materialOf(ROW(idAndMaterial, a)) * params.materials + materialOf(ROW(idAndMaterial, b));
@@ -221,9 +222,11 @@ mask solvePairs(mask where, slots a, slots b, bool remembers) {
     real3 torque = real3(0.0f, 0.0f, 0.0f);
     real leverA = real(0.0f);
     real leverB = real(0.0f);
+    heldTorque = torque;
     real4 sa = real4(0.0f, 0.0f, 0.0f, 0.0f);
     real4 sb = sa;
     if (HAS(FRICTION)) {
+        readHeldTorque();
         // Before friction: a contact at rest holds the torque of its friction, which rolling resistance bears.
         if (HAS(ROLLING)) resistRolling(touching, a, b, n, pa, pb, ma, mb, normalImpulse, contact);
         real ra = radiusOf(pa);

@@ -6,6 +6,7 @@
 //   KERNEL(count) { ... }       Defines the body; `invocation` runs over 0 .. count - 1.
 //   HAS(FEATURE)                Is true if the scene requires the feature: a constant in GLSL, a value in C++.
 //   PREFETCH(element)           Announces that an element of a buffer is read soon. It has an effect on CPUs only.
+//   SEEN(word)                  The present value of a uint that other invocations may change by atomic functions.
 //   PRIVATE(type, name)         Declares a variable of the invocation that functions share.
 //   LOOP_LIMIT                  The device ends all loops of an invocation after this number of iterations together.
 //                               NO_LOOP_LIMIT: it does not.
@@ -45,7 +46,6 @@
 //                               and `more`, any value.
 //   LANE_OF(value, lane)        The value of one lane of a real, a real3 or uints. Uints can be set.
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
-//   RAISE_WORD_TO(word, value)      Raises a word to a uint. Other invocations may raise it at the same time.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 //
 // A bundle of pairs, or a group of cells, is the work of a work group on a GPU, and of one thread in C++.
@@ -111,7 +111,7 @@ layout(location = 0) uniform uint phase;
 #define EACH_LANE(where, function, at) if (where) function(at);
 #define RAISE_TO(where, word, value)                                                             \
     if (where && word < floatBitsToUint(value)) atomicMax(word, floatBitsToUint(value));
-#define RAISE_WORD_TO(word, value) if (word < value) atomicMax(word, value);
+#define SEEN(word) (word)
 #define LANE_KERNEL(count) KERNEL(count)
 #define EACH_LANE_WITH(where, flag, function, at) if (where) function(at, flag);
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) if (where) function(number, more, a, b);

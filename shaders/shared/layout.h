@@ -172,12 +172,15 @@ struct SphereStatistics {
 #define COUNTER_OBSTACLE_PATH 38u // bits of a float (m): the most that obstacles have moved since the lists were built
 #define COUNTER_WORDS 39u
 
-// Bits of COUNTER_REBUILD. The host launches the kernels of a rebuild only if one of the first two was set at the end of
+// Bits of COUNTER_REBUILD. The host launches the kernels of a rebuild only if one of the first three was set at the end of
 // the substep before the last one.
 #define REBUILD_DUE 1u          // lists are to be rebuilt
 #define REBUILD_SOON 2u         // in the last substep, a sphere was SOON_SUBSTEPS away from asking for new lists
-#define LISTS_MISSING 4u        // there was no room for the present lists
-#define SOON_SUBSTEPS 4.0f      // twice as many as the host is ahead, because speeds change
+#define REBUILD_WAS_SOON 4u     // the same, if spheres move before rebuild_decide.comp
+#define LISTS_MISSING 8u        // there was no room for the present lists
+// Three times as many as the host is ahead. In the frame of the drift, a heavy sphere that meets a light one at equal and
+// opposite speeds makes it three times as fast.
+#define SOON_SUBSTEPS 6.0f
 
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed

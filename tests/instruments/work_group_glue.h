@@ -96,5 +96,9 @@ void run(const Binding& binding, uint begin, uint end) {
         kernelBody(gl_WorkGroupID.x); \
     }                                 \
     KERNEL(count)
+#undef LANE_BUNDLE_KERNEL
+#define LANE_BUNDLE_KERNEL(count) BUNDLE_KERNEL(count)
+#define THREADS_OF_GROUP(count)
+#define PAIR_THREADS instruments::groupThreads
 #undef PAIR_KERNEL
 #include "pair_kernel.h"

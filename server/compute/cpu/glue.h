@@ -245,7 +245,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     }                                  \
     void kernelBody([[maybe_unused]] uint invocation)
 
-#define RAISE_WORD_TO(word, value) atomicMax(word, value);
+#define SEEN(word) wordOf(word)
 #define NO_LOOP_LIMIT 0xffffffffU
 #define LOOP_LIMIT NO_LOOP_LIMIT
 #define RARE __attribute__((noinline, flatten))
