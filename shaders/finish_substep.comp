@@ -390,16 +390,5 @@ LANE_KERNEL(params.spheres) {
     }
     real motion = sqrt(dot3(arc, arc)) * h;
     RAISE_TO(inside && motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
-    if (HAS(CONTACTS)) {
-        real3 since = to - real3(ROW(listReference, invocation)) - real3(driftPath());
-        real3 relative = arc - real3(driftVelocity());
-        real distance = sqrt(dot3(since, since));
-        real next = sqrt(dot3(relative, relative)) * h;  // in the next substep
-        mask soon = inside && distance + next * SOON_SUBSTEPS > params.rebuildMove;
-        if (HAS(PERIODIC)) soon = soon || (inside && mustWrap(to + arc * (h * SOON_SUBSTEPS)));
-        if (!anyLane(soon)) return;
-        mask leaves = inside && distance + next > params.rebuildMove;
-        if (HAS(PERIODIC)) leaves = leaves || (inside && mustWrap(to));
-        askForLists(anyLane(leaves));
-    }
+    if (HAS(CONTACTS)) askIfSpheresLeave(inside, invocation, to, arc);
 }

@@ -101,7 +101,7 @@ constexpr std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
 Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
              std::uint32_t pairCapacity = 0);
 
-// What the device does one after the other in a substep that is not observed. A launch waits for the one before it.
+// The launches of a substep that is not observed. Each one waits for the one before it.
 struct SubstepCost {
     std::uint32_t launches = 0;
     std::uint32_t barriers = 0;
