@@ -8,37 +8,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import kernels
+
 COMPILER = sys.argv.pop()
 SHADERS = Path(sys.argv.pop())
-INCLUDE = re.compile(r'^#include "([^"]+)"$')
-BUFFER = re.compile(r"^BUFFER\((\w+), (\w+), (\w+)\)")
-FEATURE = re.compile(r"(?:\bHAS|^SHAPE)\((?!FEATURE\b)([A-Z_]+)\b")  # but for its definition and what explains it
-
-
-def expand(root, name):
-    """The lines of a file with its includes in place, each with the file and line it came from."""
-    for number, line in enumerate((root / name).read_text(encoding="utf-8").splitlines(), 1):
-        included = INCLUDE.match(line)
-        if included:
-            yield from expand(root, included.group(1))
-        else:
-            yield f"{name}:{number}", line
-
-
-def declared(lines):
-    """The lines with each buffer declared in GLSL, as server/compute/source.cpp does it."""
-    binding = 0
-    for place, line in lines:
-        found = BUFFER.match(line)
-        if found:
-            access, kind, name = found.groups()
-            line = f"layout(std430, binding = {binding}) {access} buffer {name}Block {{ {kind} {name}[]; }};"
-            binding += 1
-        yield place, line
 
 
 def variants(lines):
-    features = sorted({name for _, line in lines for name in FEATURE.findall(line)})
+    features = kernels.features_in(lines)
     yield "all features", dict.fromkeys(features, True)
     if features:
         yield "no feature", dict.fromkeys(features, False)
@@ -59,7 +36,7 @@ def messages(output, prologue, lines):
 class Glsl(unittest.TestCase):
     def refused(self, kernel, title, features, lines):
         """Returns the compiler's messages, after a line that names the kernel; empty if it accepts the kernel."""
-        head = ["#version 450 core"] + [f"#define {name} {str(on).lower()}" for name, on in features.items()]
+        head = kernels.prologue(features)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / kernel
             path.write_text("\n".join(head + [line for _, line in lines]) + "\n", encoding="utf-8")
@@ -69,11 +46,10 @@ class Glsl(unittest.TestCase):
         return [f"{kernel} ({title}):", *messages(result.stdout + result.stderr, len(head), lines)]
 
     def test_the_compiler_accepts_every_variant_of_every_kernel(self):
-        kernels = sorted(path.name for path in SHADERS.glob("*.comp"))
-        self.assertTrue(kernels)
         failures = []
-        for kernel in kernels:
-            lines = list(declared(expand(SHADERS, kernel)))
+        self.assertTrue(kernels.names(SHADERS))
+        for kernel in kernels.names(SHADERS):
+            lines = list(kernels.declared(kernels.expand(SHADERS, kernel)))
             for title, features in variants(lines):
                 failures += self.refused(kernel, title, features, lines)
         self.assertEqual(failures, [], "\n".join(failures))
