@@ -53,7 +53,7 @@ void addMeasure(CLI::App& app, int& exitCode) {
         ->check(CLI::IsMember({"accuracy", "cost", "stability", "all"}))
         ->capture_default_str();
     command->add_flag("--quick", options->what.quick, "fewer and smaller cases: under a minute on two processors");
-    command->add_option("--device", options->device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")
+    command->add_option("--device", options->device, "auto, gpu, gpu:N, gpu:cuda:N, cpu, cpu:THREADS or software")
         ->capture_default_str();
     command->add_option("--out", options->out, "folder for measure.csv, measure.md, measure.json and the plots")
         ->required();

@@ -58,7 +58,8 @@ void SceneOptions::addTo(CLI::App& command) {
     std::string known;
     for (const std::string& name : scene::names()) known += (known.empty() ? "" : ", ") + name;
     command.add_option("scene", scene, "a scene file, or one of: " + known)->capture_default_str();
-    command.add_option("--device", device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")->capture_default_str();
+    command.add_option("--device", device, "auto, gpu, gpu:N, gpu:cuda:N, cpu, cpu:THREADS or software")
+        ->capture_default_str();
     addQuality(command, overrides);
     addGoal(command, overrides);
     command.add_option("--seed", overrides.seed, "seed, in place of the scene's seeds");

@@ -27,7 +27,7 @@ void addProbe(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ProbeOptions>();
     CLI::App* command =
         app.add_subcommand("probe", "show the devices to compute on, with a remedy for each missing part");
-    command->add_option("--device", options->device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")
+    command->add_option("--device", options->device, "auto, gpu, gpu:N, gpu:cuda:N, cpu, cpu:THREADS or software")
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one line of JSON");
     command->footer(exitCodesText);

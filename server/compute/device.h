@@ -146,7 +146,8 @@ class Device {
 
 // Opens a device. Input if `choice` is not one of the following, NoDevice if there is no such device.
 // - "auto": a hardware GPU, else the CPU. DeviceInfo::reason gives the reason.
-// - "gpu": a hardware GPU. "gpu:N": the hardware device with number N in the list of `spherule probe`.
+// - "gpu": a hardware GPU. "gpu:N": the hardware device with number N in the list of `spherule probe`. "gpu:cuda:N":
+//   NVIDIA's device with the CUDA number N.
 // - "cpu": the CPU. "cpu:N": the CPU with N threads. "cpu:NxL": with L lanes (1, 4, 8 or 16), to compare them.
 // - "cpu-double", "cpu-double:N": the CPU in double precision, to separate rounding errors from errors of the method.
 //   Values from the host, such as the substep, stay float.

@@ -16,6 +16,7 @@ ProbeDevice probeDevice(const gl::EglDevice& device, const std::string& choice) 
     result.name = device.name;
     result.extensions = device.extensions;
     result.drmFile = device.drmFile;
+    result.cudaNumber = device.cudaNumber;
     const auto display = gl::EglDisplay::forDevice(device);
     if (!display) {
         result.problem = display.error().message;

@@ -19,14 +19,15 @@ struct ProbeVendor {
 };
 
 struct ProbeDevice {
-    unsigned index = 0;      // in EGL's order
-    std::string choice;      // what to pass as --device: "gpu:0", "software"
-    std::string name;        // by EGL; may be empty
-    std::string extensions;  // of the EGL device
-    std::string drmFile;     // may be empty
-    std::string vendor;      // of its EGL display
-    std::string renderer;    // GL_RENDERER; empty if the device cannot be used
-    std::string problem;     // why it cannot be used; empty if it can
+    unsigned index = 0;                    // in EGL's order
+    std::string choice;                    // what to pass as --device: "gpu:0", "software"
+    std::string name;                      // by EGL; may be empty
+    std::string extensions;                // of the EGL device
+    std::string drmFile;                   // may be empty
+    std::optional<unsigned> cudaNumber{};  // of NVIDIA's devices
+    std::string vendor;                    // of its EGL display
+    std::string renderer;                  // GL_RENDERER; empty if the device cannot be used
+    std::string problem;                   // why it cannot be used; empty if it can
 };
 
 // OpenGL limits that limit the size of a scene.

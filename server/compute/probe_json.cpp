@@ -12,9 +12,11 @@ Json jsonOf(const ProbeVendor& vendor) {
 }
 
 Json jsonOf(const ProbeDevice& device) {
-    return {{"choice", device.choice},         {"index", device.index},     {"name", device.name},
-            {"extensions", device.extensions}, {"drmFile", device.drmFile}, {"vendor", device.vendor},
-            {"renderer", device.renderer},     {"problem", device.problem}};
+    return {{"choice", device.choice},   {"index", device.index},
+            {"name", device.name},       {"extensions", device.extensions},
+            {"drmFile", device.drmFile}, {"cudaNumber", device.cudaNumber ? Json(*device.cudaNumber) : Json(nullptr)},
+            {"vendor", device.vendor},   {"renderer", device.renderer},
+            {"problem", device.problem}};
 }
 
 Json jsonOf(const DeviceInfo& info) {

@@ -34,10 +34,10 @@ std::string limitsText(const Limits& limits) {
 std::string deviceText(const ProbeDevice& device) {
     const auto state = device.problem.empty() ? device.renderer : "cannot be used: " + device.problem;
     return fmt::format(
-        "  {:<10}  {}\n              EGL device {}, name {}, vendor {}, DRM file {}\n"
+        "  {:<10}  {}\n              EGL device {}, name {}, vendor {}, DRM file {}{}\n"
         "              extensions {}\n",
         device.choice, state, device.index, orNone(device.name), orNone(device.vendor), orNone(device.drmFile),
-        orNone(device.extensions));
+        device.cudaNumber ? fmt::format(", gpu:cuda:{}", *device.cudaNumber) : "", orNone(device.extensions));
 }
 
 std::string vendorText(const ProbeVendor& vendor) {

@@ -1,5 +1,6 @@
 #include "compute/gl/egl_api.h"
 #include "compute/gl/open_context.h"
+#include "compute/gl/visible_gpus.h"
 #include "device_fixture.h"
 
 namespace spherule::compute {
@@ -46,14 +47,76 @@ TEST(DeviceChoice, MissingGpuIsRefusedWithAdvice) {
     EXPECT_NE(device.error().message.find("--device cpu"), std::string::npos) << device.error().text();
 }
 
+TEST(DeviceChoice, MissingCudaDeviceIsRefusedWithAdvice) {
+    const auto device = openDevice("gpu:cuda:99");
+    ASSERT_FALSE(device.has_value());
+    EXPECT_EQ(device.error().kind, ErrorKind::NoDevice);
+    EXPECT_EQ(device.error().where, "gpu:cuda:99");
+    EXPECT_NE(device.error().message.find("--device cpu"), std::string::npos) << device.error().text();
+}
+
 TEST(DeviceChoice, UnknownDevicesAreRefusedWithTheChoices) {
-    for (const auto* const choice : {"", "GPU", "gpux", "gpu:", "gpu:-1", "gpu:1x", "cuda", "gpu:99999999999", "cpu:0",
-                                     "cpu:", "cpu:2x", "cpux", "cpu:257"}) {
+    for (const auto* const choice :
+         {"", "GPU", "gpux", "gpu:", "gpu:-1", "gpu:1x", "cuda", "gpu:99999999999", "gpu:cuda",
+          "gpu:cuda:", "gpu:cuda:1x", "cuda:0", "cpu:0", "cpu:", "cpu:2x", "cpux", "cpu:257"}) {
         const auto device = openDevice(choice);
         ASSERT_FALSE(device.has_value()) << choice;
         EXPECT_EQ(device.error().kind, ErrorKind::Input) << choice;
         EXPECT_NE(device.error().message.find("cpu"), std::string::npos) << device.error().text();
     }
+}
+
+// The order of EGL, which is not CUDA's, with NVIDIA's devices by their CUDA numbers. -1: a device without one.
+std::vector<gl::EglDevice> hostWith(const std::vector<int>& cudaNumbers) {
+    std::vector<gl::EglDevice> devices;
+    const auto add = [&](gl::EglDeviceClass deviceClass) -> gl::EglDevice& {
+        gl::EglDevice& device = devices.emplace_back();
+        device.index = static_cast<unsigned>(devices.size() - 1);
+        device.deviceClass = deviceClass;
+        return device;
+    };
+    for (const int number : cudaNumbers) {
+        gl::EglDevice& device = add(gl::EglDeviceClass::Cuda);
+        if (number >= 0) device.cudaNumber = static_cast<unsigned>(number);
+    }
+    add(gl::EglDeviceClass::Drm);
+    add(gl::EglDeviceClass::Software);
+    return devices;
+}
+
+// Returns the places in hostWith(cudaNumbers) of the devices that the variable leaves, and whether there is a note.
+std::pair<std::vector<unsigned>, bool> left(const std::vector<int>& cudaNumbers, const char* variable) {
+    const auto host = hostWith(cudaNumbers);
+    const gl::VisibleGpus gpus = gl::visibleGpus(host, variable);
+    std::vector<unsigned> places;
+    for (const auto* device : gpus.devices) places.push_back(device->index);
+    return {places, !gpus.note.empty()};
+}
+
+TEST(DeviceChoice, CudasVariableChoosesAmongNvidiasDevices) {
+    using Left = std::pair<std::vector<unsigned>, bool>;
+    const std::vector<int> host{2, 0, 1};  // and another vendor's at 3
+    EXPECT_EQ(left(host, nullptr), Left({0, 1, 2, 3}, false));
+    EXPECT_EQ(left(host, "0,1,2"), Left({1, 2, 0, 3}, false));
+    EXPECT_EQ(left(host, "2"), Left({0, 3}, true));
+    EXPECT_EQ(left(host, " 1, 0"), Left({2, 1, 3}, true));
+    EXPECT_EQ(left(host, "1,7,0"), Left({2, 3}, true));
+    EXPECT_EQ(left(host, "1,-1,0"), Left({2, 3}, true));
+    for (const char* const none : {"", "-1", "7", "NoDevFiles"}) EXPECT_EQ(left(host, none), Left({3}, true)) << none;
+}
+
+TEST(DeviceChoice, CudasVariableIsNotFollowedWithoutNumbers) {
+    using Left = std::pair<std::vector<unsigned>, bool>;
+    EXPECT_EQ(left({2, 0, 1}, "GPU-8932f937-d72c-4106-c12f-20bd9faed9f6"), Left({0, 1, 2, 3}, true));
+    EXPECT_EQ(left({-1, -1}, "1"), Left({0, 1, 2}, false));
+    EXPECT_EQ(left({}, "0"), Left({0}, false));
+}
+
+// A driver that follows the variable hides the other devices, and counts these from 0.
+TEST(DeviceChoice, ADriverMayFollowCudasVariableItself) {
+    using Left = std::pair<std::vector<unsigned>, bool>;
+    EXPECT_EQ(left({-1, 1, -1, 0}, "3,2"), Left({3, 1, 4}, false));
+    EXPECT_EQ(left({-1, 1, -1, 0}, ""), Left({4}, true));
 }
 
 TEST(DeviceChoice, DevicesCanBeOpenedRepeatedly) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <spdlog/fmt/fmt.h>
+
 #include "compute/gl/egl_api.h"
 #include "core/log.h"
 
@@ -21,6 +23,13 @@ EglDeviceClass classify(const std::string& extensions) {
     return EglDeviceClass::OtherHardware;
 }
 
+std::optional<unsigned> cudaNumber(EGLDeviceEXT device, const std::string& extensions) {
+    if (!hasExtension(extensions, "EGL_NV_device_cuda") || eglQueryDeviceAttribEXT == nullptr) return std::nullopt;
+    EGLAttrib number = -1;
+    if (eglQueryDeviceAttribEXT(device, EGL_CUDA_DEVICE_NV, &number) == EGL_FALSE) eglGetError();
+    return number < 0 ? std::nullopt : std::optional(static_cast<unsigned>(number));
+}
+
 EglDevice describe(EGLDeviceEXT handle, unsigned index) {
     EglDevice device;
     device.handle = handle;
@@ -35,7 +44,9 @@ EglDevice describe(EGLDeviceEXT handle, unsigned index) {
     if (hasExtension(device.extensions, "EGL_EXT_device_drm")) {
         device.drmFile = deviceString(handle, EGL_DRM_DEVICE_FILE_EXT);
     }
-    spdlog::debug("EGL device {}: {} {} [{}]", index, device.name, device.drmFile, device.extensions);
+    device.cudaNumber = cudaNumber(handle, device.extensions);
+    spdlog::debug("EGL device {}: {} {} {} [{}]", index, device.name, device.drmFile,
+                  device.cudaNumber ? fmt::format("CUDA device {}", *device.cudaNumber) : "", device.extensions);
     return device;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct EglDevice {
     EglDeviceClass deviceClass = EglDeviceClass::OtherHardware;
     std::string name;  // by EGL_EXT_device_query_name; empty without it
     std::string extensions;
-    std::string drmFile;  // "/dev/dri/card0"; empty if the device has none
+    std::string drmFile;                 // "/dev/dri/card0"; empty if the device has none
+    std::optional<unsigned> cudaNumber;  // of NVIDIA's devices, as CUDA counts them
 
     [[nodiscard]] bool software() const { return deviceClass == EglDeviceClass::Software; }
 };

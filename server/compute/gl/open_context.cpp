@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <string_view>
 
 #include <spdlog/fmt/fmt.h>
 
+#include "compute/gl/visible_gpus.h"
 #include "core/log.h"
 
 namespace spherule::compute::gl {
@@ -39,31 +41,32 @@ class Attempts {
         return true;
     }
 
-    [[nodiscard]] const std::shared_ptr<Context>& context() const { return context_; }
-    [[nodiscard]] std::string problems() const {
-        return problems_.empty() ? "" : fmt::format(" ({})", fmt::join(problems_, "; "));
-    }
-
-  private:
     void note(const std::string& problem) {
         if (std::find(problems_.begin(), problems_.end(), problem) != problems_.end()) return;
         spdlog::debug("not used: {}", problem);
         problems_.push_back(problem);
     }
 
+    [[nodiscard]] const std::shared_ptr<Context>& context() const { return context_; }
+    [[nodiscard]] std::string problems() const {
+        return problems_.empty() ? "" : fmt::format(" ({})", fmt::join(problems_, "; "));
+    }
+
+  private:
     std::shared_ptr<Context> context_;
     std::vector<std::string> problems_;
 };
 
 bool openHardware(Attempts& attempts, const Wish& wish, const std::vector<EglDevice>& devices) {
-    unsigned place = 0;
-    for (const auto& device : devices) {
-        if (device.software()) continue;
-        const bool wanted = !wish.numbered || place == wish.gpu;
-        ++place;
-        if (wanted && attempts.open(EglDisplay::forDevice(device), false)) return true;
+    const bool numbered = wish.gpu || wish.cuda;
+    const VisibleGpus gpus = visibleGpus(devices, numbered ? nullptr : std::getenv("CUDA_VISIBLE_DEVICES"));
+    for (unsigned place = 0; place < gpus.devices.size(); ++place) {
+        const EglDevice& device = *gpus.devices[place];
+        if ((wish.gpu && place != wish.gpu) || (wish.cuda && device.cudaNumber != wish.cuda)) continue;
+        if (attempts.open(EglDisplay::forDevice(device), false)) return true;
     }
-    return devices.empty() && !wish.numbered && attempts.open(EglDisplay::surfaceless(false), false);
+    if (!gpus.note.empty()) attempts.note(gpus.note);
+    return devices.empty() && !numbered && attempts.open(EglDisplay::surfaceless(false), false);
 }
 
 // Opens EGL's software device first: if another vendor's library is installed, only this device is Mesa's for certain.
@@ -75,7 +78,16 @@ bool openSoftware(Attempts& attempts, const std::vector<EglDevice>& devices) {
 }
 
 std::string gpuName(const Wish& wish) {
-    return wish.numbered ? fmt::format("gpu:{}", wish.gpu) : "gpu";
+    if (wish.cuda) return fmt::format("gpu:cuda:{}", *wish.cuda);
+    return wish.gpu ? fmt::format("gpu:{}", *wish.gpu) : "gpu";
+}
+
+std::optional<unsigned> numberAfter(std::string_view prefix, const std::string& choice) {
+    if (!choice.starts_with(prefix)) return std::nullopt;
+    unsigned number = 0;
+    const char* const end = choice.data() + choice.size();
+    const auto parsed = std::from_chars(choice.data() + prefix.size(), end, number);
+    return parsed.ec == std::errc() && parsed.ptr == end ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -85,14 +97,12 @@ Result<Wish> parseWish(const std::string& choice) {
     if (choice == "auto") return Wish{};
     if (choice == "gpu") return Wish{.kind = Kind::Gpu};
     if (choice == "software") return Wish{.kind = Kind::Software};
-    if (choice.starts_with("gpu:")) {
-        Wish wish{.kind = Kind::Gpu, .numbered = true};
-        const char* const end = choice.data() + choice.size();
-        const auto parsed = std::from_chars(choice.data() + 4, end, wish.gpu);
-        if (parsed.ec == std::errc() && parsed.ptr == end) return wish;
-    }
+    if (const auto cuda = numberAfter("gpu:cuda:", choice)) return Wish{.kind = Kind::Gpu, .cuda = cuda};
+    if (const auto gpu = numberAfter("gpu:", choice)) return Wish{.kind = Kind::Gpu, .gpu = gpu};
     return fail(ErrorKind::Input, "--device",
-                fmt::format("\"{}\" is none of auto, gpu, gpu:N (N from 0), cpu, cpu:N (N threads), software", choice));
+                fmt::format("\"{}\" is none of auto, gpu, gpu:N (N from 0), gpu:cuda:N (as CUDA counts), cpu, cpu:N (N "
+                            "threads), software",
+                            choice));
 }
 
 Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devices) {

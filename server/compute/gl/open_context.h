@@ -15,12 +15,12 @@ namespace spherule::compute::gl {
 struct Wish {
     enum class Kind { Auto, Gpu, Software };
     Kind kind = Kind::Auto;
-    unsigned gpu = 0;       // place among the hardware devices, preferred first
-    bool numbered = false;  // only the device `gpu`
+    std::optional<unsigned> gpu{};   // only the device at this place among the hardware devices, preferred first
+    std::optional<unsigned> cuda{};  // only NVIDIA's device with this CUDA number
 };
 
-// Parses `choice`. Input if it is not "auto", "gpu", "gpu:N" or "software". "auto" means a GPU, like "gpu", but errors
-// contain no advice.
+// Parses `choice`. Input if it is not "auto", "gpu", "gpu:N", "gpu:cuda:N" or "software". "auto" means a GPU, like
+// "gpu", but errors contain no advice.
 Result<Wish> parseWish(const std::string& choice);
 
 struct Opened {
@@ -29,8 +29,8 @@ struct Opened {
     std::string reason;  // one sentence
 };
 
-// Opens the requested device among `devices` (from eglDevices()). If EGL lists none, opens the device that Mesa
-// chooses. The error NoDevice lists the attempts and a remedy.
+// Opens the requested device among `devices` (from eglDevices()). Without a number, the variable CUDA_VISIBLE_DEVICES
+// counts. If EGL lists none, opens the device that Mesa chooses. The error NoDevice lists the attempts and a remedy.
 Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devices);
 
 }  // namespace spherule::compute::gl
