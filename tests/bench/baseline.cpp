@@ -16,7 +16,6 @@ namespace {
 using sim::layout::uint;
 #include "kernels/tally.h"
 
-// The baselines' kernels, and the program's shaders that they include.
 class Sources final : public compute::SourceSet {
   public:
     [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const override {
@@ -27,6 +26,11 @@ class Sources final : public compute::SourceSet {
 };
 
 }  // namespace
+
+const compute::SourceSet& benchSources() {
+    static const Sources sources;
+    return sources;
+}
 
 Setting settingFor(compute::Device& device, sim::Simulation& simulation, bool count) {
     return {device,
@@ -74,7 +78,7 @@ std::vector<compute::Buffer*> Baseline::swapped(std::vector<compute::Buffer*> bu
 void Baseline::stage(std::string_view kernel, std::vector<compute::Buffer*> buffers, std::uint32_t count,
                      std::uint32_t phase) {
     if (failed_) return;
-    auto made = setting_.device.createKernel(Sources(), kernel, defines_);
+    auto made = setting_.device.createKernel(benchSources(), kernel, defines_);
     if (!made) {
         failed_ = true;
         error_ = made.error();

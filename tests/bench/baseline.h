@@ -8,6 +8,9 @@
 
 namespace spherule::bench {
 
+// The kernels of tests/bench/kernels/, and the program's shaders that they include.
+const compute::SourceSet& benchSources();
+
 // A method as a list of launches over its own arrays. The first failure of array(), stage() or response() is kept, and
 // later calls have no effect. ready() returns that failure.
 class Baseline final : public Method {

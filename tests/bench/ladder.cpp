@@ -33,8 +33,8 @@ struct Rung {
     std::vector<std::vector<double>> passes{};  // device s per substep, by pass and round
 };
 
-Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres) {
-    auto scene = box(spheres);
+Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres, double friction) {
+    auto scene = box(spheres, friction);
     if (!scene) return tl::unexpected(scene.error());
     auto made = sim::Simulation::create(device, std::move(*scene));
     if (!made) return tl::unexpected(made.error());
@@ -103,10 +103,11 @@ double spread(const Figures& figures, const std::string& table) {
 
 }  // namespace
 
-Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned rounds, Figures& figures) {
+Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, double friction, unsigned rounds,
+                   Figures& figures) {
     std::vector<Rung> rungs;
     for (const std::uint32_t size : sizes) {
-        auto rung = rungFor(device, size);
+        auto rung = rungFor(device, size, friction);
         if (!rung) return tl::unexpected(rung.error());
         rungs.push_back(std::move(*rung));
     }

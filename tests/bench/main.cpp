@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "compare.h"
+#include "costs.h"
 #include "ladder.h"
 #include "report.h"
 
@@ -20,6 +21,8 @@ struct Options {
     Sizes ladder = {10000, 50000, 200000, 1000000};
     std::string csv;
     std::string markdown;
+    bool friction = false;
+    bool costs = false;
     bool quick = false;
 };
 
@@ -33,6 +36,8 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("--ladder", options.ladder, "spheres, at which our passes are timed; 0: not at all")
         ->delimiter(',')
         ->capture_default_str();
+    app.add_flag("--friction", options.friction, "with friction, in our passes");
+    app.add_flag("--costs", options.costs, "also the costs of launches and copies; not on cpu");
     app.add_option("--csv", options.csv, "file to write, one line per figure");
     app.add_option("--markdown", options.markdown, "file to write, as tables");
     app.add_flag("--quick", options.quick, "few spheres and short rounds: shows that it works, measures nothing");
@@ -52,11 +57,14 @@ Result<bench::Figures> measure(compute::Device& device, const Options& options) 
         if (!sizes.empty()) sizes = {500, 1000};
         if (!ladder.empty()) ladder = {500, 2000};
     }
+    if (options.costs)
+        if (auto done = bench::deviceCosts(device, options.quick, figures); !done) return tl::unexpected(done.error());
     for (const std::uint32_t size : sizes)
         if (auto done = bench::compare(device, size, moments, effort, figures); !done)
             return tl::unexpected(done.error());
     if (!ladder.empty())
-        if (auto done = bench::climb(device, ladder, options.quick ? 1 : 12, figures); !done)
+        if (auto done = bench::climb(device, ladder, options.friction ? 0.4 : 0, options.quick ? 1 : 12, figures);
+            !done)
             return tl::unexpected(done.error());
     return figures;
 }

@@ -19,11 +19,13 @@ void set(google::protobuf::RepeatedField<double>* field, glm::dvec3 value) {
 
 }  // namespace
 
-Result<scene::Scene> box(std::uint32_t spheres) {
+Result<scene::Scene> box(std::uint32_t spheres, double friction) {
     const double width = 2 * radius * std::sqrt(static_cast<double>(spheres) / layers);
     v1::Scene message;
     message.set_name("box");
-    message.add_materials()->set_restitution(0.5);
+    v1::Material& material = *message.add_materials();
+    material.set_restitution(0.5);
+    material.set_friction(friction);
     message.mutable_quality()->set_substeps(substeps);
     set(message.mutable_bounds()->mutable_min(), {0, 0, 0});
     set(message.mutable_bounds()->mutable_max(), {width, width, height});

@@ -11,9 +11,9 @@ constexpr unsigned layers = 20;   // approximate depth of the bed
 constexpr unsigned substeps = 8;  // per step of 1/60 s
 
 // The scene box-50k for any number of spheres N: a lattice of 2.2 r with a jitter of 0.1 r falls into an open box. The
-// box has the width 2 r sqrt(N / 20), so that the bed has the same depth for every N. Restitution 0.5, no friction, no
+// box has the width 2 r sqrt(N / 20), so that the bed has the same depth for every N. Restitution 0.5, no
 // sleep.
-Result<scene::Scene> box(std::uint32_t spheres);
+Result<scene::Scene> box(std::uint32_t spheres, double friction = 0);
 
 // Places the spheres of `scene` on a cubic lattice that starts at the floor.
 struct Arrangement {

@@ -52,6 +52,7 @@ TEST(DeviceChoice, MissingCudaDeviceIsRefusedWithAdvice) {
     ASSERT_FALSE(device.has_value());
     EXPECT_EQ(device.error().kind, ErrorKind::NoDevice);
     EXPECT_EQ(device.error().where, "gpu:cuda:99");
+    EXPECT_NE(device.error().message.find("CUDA numbers here: "), std::string::npos) << device.error().text();
     EXPECT_NE(device.error().message.find("--device cpu"), std::string::npos) << device.error().text();
 }
 

@@ -53,11 +53,11 @@ std::uint64_t launches();
 // Returns the kernels of inWorkGroups() that were never launched.
 std::vector<std::string> neverLaunched();
 
-// Returns the faults in the use of barriers since the last call, each a sentence: threads of a work group that wait at
-// different barriers, or that ended while others wait.
+// Returns the faults in the use of barriers since the last call, each a sentence. Threads of a work group wait at
+// different barriers, or some have ended while others wait.
 std::vector<std::string> takeBarrierFaults();
 
-// What runs at present.
+// The invocation that runs at present.
 struct Place {
     bool running = false;             // in a kernel
     bool inGroup = false;             // of a work group

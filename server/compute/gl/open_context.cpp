@@ -57,6 +57,13 @@ class Attempts {
     std::vector<std::string> problems_;
 };
 
+std::string cudaNumbers(const std::vector<EglDevice>& devices) {
+    std::vector<unsigned> numbers;
+    for (const EglDevice& device : devices)
+        if (device.cudaNumber) numbers.push_back(*device.cudaNumber);
+    return numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", "));
+}
+
 bool openHardware(Attempts& attempts, const Wish& wish, const std::vector<EglDevice>& devices) {
     const bool numbered = wish.gpu || wish.cuda;
     const VisibleGpus gpus = visibleGpus(devices, numbered ? nullptr : std::getenv("CUDA_VISIBLE_DEVICES"));
@@ -66,6 +73,7 @@ bool openHardware(Attempts& attempts, const Wish& wish, const std::vector<EglDev
         if (attempts.open(EglDisplay::forDevice(device), false)) return true;
     }
     if (!gpus.note.empty()) attempts.note(gpus.note);
+    if (wish.cuda) attempts.note(fmt::format("CUDA numbers here: {}", cudaNumbers(devices)));
     return devices.empty() && !numbered && attempts.open(EglDisplay::surfaceless(false), false);
 }
 
