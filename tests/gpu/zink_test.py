@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """zink_test.py FORM SPHERULE PROGRAM...: runs tests on a second OpenGL: Mesa's zink, which translates it to Vulkan,
-over Mesa's software renderer for Vulkan. The programs are gpu_device, bits_test and, with the FORM `all`, physics_tests. The
-FORM `short` runs the tests of SHORT; `all` runs all tests but those of BEYOND."""
+over Mesa's software renderer for Vulkan. The programs are gpu_device, bits_test and, with the FORM `all`,
+physics_tests. The FORM `short` runs the tests of SHORT; `all` runs all tests except those of BEYOND."""
 import glob
 import json
 import os

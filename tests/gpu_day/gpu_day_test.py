@@ -141,7 +141,8 @@ class Script(unittest.TestCase):
         library = host / "usr/local/nvidia/lib64/libEGL_nvidia.so.0"
         library.parent.mkdir(parents=True)
         shutil.copy(STUB, library)
-        done = self.run_bundle(out, "--only", "probe", "--only", "runs", "--only", "serve", SPHERULE_HOST_ROOT=str(host))
+        done = self.run_bundle(out, "--only", "probe", "--only", "runs", "--only", "serve",
+                               SPHERULE_HOST_ROOT=str(host))
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         bundles.check_files(out)
         probe = (out / "probe.txt").read_text("utf-8")

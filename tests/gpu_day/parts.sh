@@ -72,7 +72,8 @@ run_compile() {
 check_same() {
     local hash first='' round
     for round in 1 2; do
-        hash=$(spherule run "$@" --device "$device" --json | sed -n 's/.*"stateHash":"\([0-9a-f]*\)".*/\1/p') || return 1
+        hash=$(spherule run "$@" --device "$device" --json |
+            sed -n 's/.*"stateHash":"\([0-9a-f]*\)".*/\1/p') || return 1
         echo "run $round: ${hash:-no hash}"
         [[ -n $hash && ${first:-$hash} == "$hash" ]] || return 1
         first=$hash
@@ -163,8 +164,8 @@ check_serve() {
     local scene=$1 seconds=$2 folder server url code=0
     folder=$(mktemp -d "$dir/serve.XXXXXX")
     # A second signal would end the server at once; in the background, timeout sends two.
-    timeout --foreground --kill-after=5 "$limit" "$launch" spherule serve "$scene" --device "$device" --listen 127.0.0.1:0 \
-        --recordings "$folder" >"$folder/log" 2>&1 &
+    timeout --foreground --kill-after=5 "$limit" "$launch" spherule serve "$scene" --device "$device" \
+        --listen 127.0.0.1:0 --recordings "$folder" >"$folder/log" 2>&1 &
     server=$!
     for ((k = 0; k < 10 * limit; ++k)); do
         url=$(sed -n 's|.*open http://\([0-9.:]*\)/.*|\1|p' "$folder/log")

@@ -29,13 +29,17 @@ static EGLBoolean refuse(EGLDisplay display, EGLint* major, EGLint* minor) {
     return EGL_FALSE;
 }
 
-static EGLBoolean supportsApi(EGLenum api) { return api == EGL_OPENGL_API; }
+static EGLBoolean supportsApi(EGLenum api) {
+    return api == EGL_OPENGL_API;
+}
 
 static const char* vendorString(int name) {
     return name == 0 ? "EGL_EXT_platform_device EGL_EXT_platform_base" : NULL; /* platform extensions */
 }
 
-static void* nothing(void) { return NULL; }
+static void* nothing(void) {
+    return NULL;
+}
 
 static EGLint takeError(void) {
     const EGLint last = error;
@@ -83,7 +87,9 @@ static void* dispatched(const char* name) {
     return strncmp(name, "eglQueryDevice", 14) == 0 ? function(name) : NULL;
 }
 
-static void ignoreIndex(const char* name, int index) { (void)name, (void)index; }
+static void ignoreIndex(const char* name, int index) {
+    (void)name, (void)index;
+}
 
 __attribute__((visibility("default"))) EGLBoolean __egl_Main(uint32_t version, const void* exports, void* vendor,
                                                              struct imports* imports) {
