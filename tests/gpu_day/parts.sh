@@ -37,6 +37,7 @@ spherule() {
 }
 
 run_probe() {
+    local PATH=$PATH:/usr/local/nvidia/bin  # where some container runtimes mount nvidia-smi
     step "probe" probe.txt "$launch" spherule probe --device "$device"
     if command -v nvidia-smi >/dev/null; then step "nvidia-smi" probe.txt nvidia-smi -q; fi
 }
@@ -241,13 +242,16 @@ run_physics() {
     local label test jobs=() job part parts
     parts=$(($(nproc) / $(grep -vc '^gpu ' "$dir/tests.list") + 1))
     while read -r label test; do
-        [[ $label != gpu ]] || continue
+        [[ $label != gpu && -z $quick ]] || continue
         for ((part = 0; part < parts; ++part)); do
-            [[ -z $quick || $part -eq 0 ]] || continue
-            if [[ -n $quick ]]; then run_test "$test" 0 20 & else run_test "$test" "$part" "$parts" & fi
+            run_test "$test" "$part" "$parts" &
             jobs+=($!)
         done
     done <"$dir/tests.list"
+    if [[ -n $quick ]]; then
+        run_test physics_tests 0 40 &
+        jobs=($!)
+    fi
     for job in "${jobs[@]}"; do wait "$job" || failed=1; done
     join_logs
 }
