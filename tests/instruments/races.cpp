@@ -52,7 +52,7 @@ struct Users {
     }
 };
 
-// The accesses of a word in the launch under way.
+// The users of a word in the launch under way.
 struct Word {
     std::uint32_t launch = 0;
     std::uint32_t group = 0;     // of `threads`: a Place::user
@@ -213,7 +213,7 @@ std::uint64_t accesses() {
 
 }  // namespace spherule::instruments
 
-// The hooks that GCC and Clang insert. The runtime of -fsanitize=thread has the same names and types.
+// The hooks that GCC and Clang insert. The runtime of -fsanitize=thread has the same functions.
 // NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 using spherule::instruments::Access;
 using spherule::instruments::note;

@@ -61,7 +61,7 @@ void addState(Digest& digest, sim::Simulation& simulation) {
     digest.push_back(hashOf<glm::vec4>(simulation.pipeline().read<glm::vec4>(sim::figuresArray, simulation.count())));
 }
 
-// Returns digests of the state and of the statistics after a time of the simulation (s).
+// Returns the bits of the state and of its statistics after `seconds` of simulated time.
 Digest resultsOf(const scene::Scene& scene, double seconds) {
     const auto device = valueOf(compute::openDevice("cpu:1x1"));
     const auto simulation = simulate(scene, *device);

@@ -21,7 +21,7 @@ std::ostream& operator<<(std::ostream& out, const Trial& trial);  // its name
 // Short runs of the scenes of physics/mixtures.h, of crowds, of commands, and of the encoder of frames.
 std::vector<Trial> mixtureTrials();
 
-// A selection of the mixture trials: together they launch every kernel.
+// Some of these trials. Together they launch every kernel.
 std::vector<Trial> coveringTrials();
 
 // A trial of each scene that comes with the program, in each model that has its features. It lasts

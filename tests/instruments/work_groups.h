@@ -57,7 +57,7 @@ std::vector<std::string> neverLaunched();
 // different barriers, or some have ended while others wait.
 std::vector<std::string> takeBarrierFaults();
 
-// The invocation that runs at present.
+// The invocation at work.
 struct Place {
     bool running = false;             // in a kernel
     bool inGroup = false;             // of a work group

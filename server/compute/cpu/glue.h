@@ -4,7 +4,8 @@
 // members too.
 //
 // Included once by each translation unit that compiles the kernels. The unit first defines:
-//   SPHERULE_REAL        The type for `float` in kernels: float or double.
+//   SPHERULE_REAL        The type for `float` in kernels: float or double, or a class of the tests.
+//   SPHERULE_REAL_FUNCTIONS  Only if that class has abs(), floor() and sqrt().
 //   SPHERULE_PRECISION   The namespace of the kernels, which contains vec3 and vec4 of that type.
 //   SPHERULE_LANES       Only in units of kernels with several lanes, which include compute/cpu/lane_rows.h before.
 
@@ -48,6 +49,7 @@ inline uint max(uint a, uint b) {
 inline Scalar clamp(Scalar x, Scalar low, Scalar high) {
     return min(max(x, low), high);
 }
+#if !defined(SPHERULE_REAL_FUNCTIONS)
 inline Scalar abs(Scalar x) {
     return std::fabs(x);
 }
@@ -57,6 +59,7 @@ inline Scalar floor(Scalar x) {
 inline Scalar sqrt(Scalar x) {
     return std::sqrt(x);
 }
+#endif
 inline Scalar uintBitsToFloat(uint x) {
     return static_cast<Scalar>(std::bit_cast<float>(x));
 }
