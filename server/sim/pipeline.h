@@ -138,8 +138,8 @@ class Pipeline {
 
     // Returns the number of kernels launched since the pipeline was made.
     [[nodiscard]] std::uint64_t launches() const { return launches_; }
-    // Returns how many batches of pairs follow one another in a substep with the present lists: the most that a bundle of
-    // each colour has, added up. A pair without a batch counts as one. Waits for the device.
+    // Returns how many batches of pairs follow one another in a substep with the present lists: the most that a bundle
+    // of each colour has, added up. A pair without a batch counts as one. Waits for the device.
     [[nodiscard]] std::uint32_t longestChain();
 
     [[nodiscard]] const Plan& plan() const { return plan_; }

@@ -16,91 +16,65 @@
 #define SAMPLE_LEAST 4u
 #define SAMPLE_VISITS 32768u
 
-#define MOST_RUNS 14u  // of a cell, on its own level
-
 PRIVATE(uint, sampled)  // spheres in or beside so many others that not all of their pairs were visited
 PRIVATE(Reach, reached)
 PRIVATE(CellRun, chord)
-// The ranges of sorted spheres with which the spheres of the cell are paired on their own level. The first one is the
-// cell itself.
-PRIVATE(uint, runs)
-PRIVATE(uint, runBegin[MOST_RUNS])
-PRIVATE(uint, runEnd[MOST_RUNS])
-PRIVATE(uint, runCells[MOST_RUNS])
-PRIVATE(uint, sampleSize)
+PRIVATE(uvec4, cellPlace)  // x, y, z of the cell whose spheres are visited
 
-// Adds the cells `from` to `to` of a row of cells, which begins at cell `first`.
-void addRun(uint first, uint from, uint to) {
-    uint begin = cellStart[first + from];
-    uint end = cellStart[first + to + 1u];
-    if (begin == end) return;
-    runBegin[runs] = begin;
-    runEnd[runs] = end;
-    runCells[runs] = to - from + 1u;
-    runs = runs + 1u;
-}
-
-// Row 0 is the cell itself and the cell to the east. The other rows are cells x - 1 .. x + 1 to the north, above the
-// south, above, and above the north. Each row is one range of the sorted spheres unless the torus cuts it.
-void findRuns(uvec4 cells, uint x, uint y, uint z) {
-    uint nx = cells.x;
-    uint west = x == 0u ? nx - 1u : x - 1u;
-    uint east = x + 1u == nx ? 0u : x + 1u;
+// The first cell of a row of cells of the own level. Row 0 has the cell itself and the cell to the east. The other rows
+// are to the north, above the south, above, and above the north.
+uint firstOfRow(uvec4 cells, uint row) {
+    uint y = cellPlace.y;
+    uint z = cellPlace.z;
     uint north = y + 1u == cells.y ? 0u : y + 1u;
     uint south = y == 0u ? cells.y - 1u : y - 1u;
     uint above = z + 1u == cells.z ? 0u : z + 1u;
-    bool whole = x > 0u && x + 1u < nx;
-    runs = 0u;
-    for (uint row = 0u; row < 5u; ++row) {
-        uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
-        uint start = cellIndex(cells, 0u, ry, row < 2u ? z : above);
-        uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
-        for (uint part = 0u; part < parts; ++part) {
-            uint from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
-            addRun(start, from, row > 0u && whole ? east : from);
-        }
-    }
-    sampleSize = max(SAMPLE_LEAST, min(SAMPLE_VISITS / (runEnd[0] - runBegin[0]), SAMPLE_MOST));
+    return cellIndex(cells, 0u, row == 0u || row == 3u ? y : (row == 2u ? south : north), row < 2u ? z : above);
 }
 
-// Visits the pairs of a sphere of the cell of findRuns(). Has only one call of visitRange: GLSL compilers copy the
-// function to each call, which takes seconds.
-void visitSphere(uint a, uint level, uint sampleRound) {
+// Visits the pairs of a sphere of the cell. Has only one call of visitRange: GLSL compilers copy the function to each
+// call, which takes seconds.
+void visitSphere(uint a, uint level, uint sampleSize, uint sampleRound) {
     bool sampledHere = false;
     // One pass for the level itself, then one for each finer level.
     uint passes = HAS(LEVELS) ? 1u + level : 1u;
     for (uint pass = 0u; pass < passes; ++pass) {
         bool finer = HAS(LEVELS) && pass > 0u;
+        uvec4 cells = cellsOf(finer ? pass - 1u : level);
+        uint x = cellPlace.x;
+        bool whole = x > 0u && x + 1u < cells.x;
         if (finer) reached = reachOf(position[a], pass - 1u);
-        uint rows = finer ? reached.rows : runs;
+        uint rows = finer ? reached.rows : 5u;
         for (uint row = 0u; row < rows; ++row) {
-            uint parts = 1u;
+            // On the own level, a row is one range of the sorted spheres unless the torus cuts it.
+            uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
             uint start = 0u;
             if (finer) {
                 uint reachedY = row / reached.z.count;
                 uint reachedZ = row - reachedY * reached.z.count;
                 start = rowStart(reached, reachedY, reachedZ);
                 chord = rowRun(reached, reachedY, reachedZ);
-                parts = chord.count == 0u ? 0u : (chord.start + chord.count > reached.cells.x ? 2u : 1u);
+                parts = chord.count == 0u ? 0u : (chord.start + chord.count > cells.x ? 2u : 1u);
+            } else {
+                start = firstOfRow(cells, row);
             }
             for (uint part = 0u; part < parts; ++part) {
-                uint width = 1u;
-                uint b = 0u;
-                uint stop = 0u;
+                uint from = 0u;
+                uint to = 0u;
                 if (finer) {
                     uint ends = chord.start + chord.count - 1u;
-                    uint from = part == 0u ? chord.start : 0u;
-                    uint to = part == 0u ? min(ends, reached.cells.x - 1u) : ends - reached.cells.x;
-                    width = to - from + 1u;
-                    b = cellStart[start + from];
-                    stop = cellStart[start + to + 1u];
+                    from = part == 0u ? chord.start : 0u;
+                    to = part == 0u ? min(ends, cells.x - 1u) : ends - cells.x;
                 } else {
-                    width = runCells[row];
-                    b = row == 0u ? a + 1u : runBegin[row];
-                    stop = runEnd[row];
+                    uint west = x == 0u ? cells.x - 1u : x - 1u;
+                    uint east = x + 1u == cells.x ? 0u : x + 1u;
+                    from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
+                    to = row > 0u && whole ? east : from;
                 }
+                uint b = !finer && row + part == 0u ? a + 1u : cellStart[start + from];
+                uint stop = cellStart[start + to + 1u];
                 if (b == stop) continue;
-                if (stop - b > width * sampleThreshold(finer ? pass - 1u : level)) {
+                if (stop - b > (to - from + 1u) * sampleThreshold(finer ? pass - 1u : level)) {
                     // Visits a share of the others now and another share in the next round.
                     uint shares = (stop - b + sampleSize - 1u) / sampleSize;
                     b = b + sampleRound % shares * sampleSize;
@@ -149,8 +123,9 @@ void visitShareOfGroup(uint group, uint share, uint shares, uint sampleRound) {
         before = before + count;
         if (a >= end) continue;
         uint at = cell - firstCell(cells);
-        findRuns(cells, at % cells.x, at / (cells.x * cells.z), (at / cells.x) % cells.z);
-        for (; a < end; ++a) visitSphere(a, level, sampleRound);
+        cellPlace = uvec4(at % cells.x, at / (cells.x * cells.z), (at / cells.x) % cells.z, 0u);
+        uint sampleSize = max(SAMPLE_LEAST, min(SAMPLE_VISITS / count, SAMPLE_MOST));
+        for (; a < end; ++a) visitSphere(a, level, sampleSize, sampleRound);
     }
 }
 

@@ -12,7 +12,8 @@
 namespace spherule::compute::gl {
 namespace {
 
-// The threads of a PAIR_KERNEL. A batch of a dense bundle has about 300 pairs. On an H100, 256 threads take the least time.
+// The threads of a PAIR_KERNEL. A batch of a dense bundle has about 300 pairs. On an H100, 256 threads take the least
+// time.
 constexpr const char* pairThreads = "256";
 constexpr const char* mesaLoopLimit = "65535u";  // LP_MAX_TGSI_LOOP_ITERATIONS of llvmpipe
 
