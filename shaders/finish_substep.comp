@@ -320,11 +320,6 @@ void checkOutside(uint sphere) {
     checkMotion(sphere, x, vec3(velocity[sphere]), vec3(x));
 }
 
-mask leavesBounds(real3 p) {
-    return p.x < params.wallMin.x || p.x > params.wallMax.x || p.y < params.wallMin.y || p.y > params.wallMax.y ||
-           p.z < params.wallMin.z || p.z > params.wallMax.z;
-}
-
 LANE_KERNEL(params.spheres) {
     real4 v = ROW(velocity, invocation);
     sphereAwake = liveLanes() && isAwake(v);
@@ -390,5 +385,16 @@ LANE_KERNEL(params.spheres) {
     }
     real motion = sqrt(dot3(arc, arc)) * h;
     RAISE_TO(inside && motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
-    if (HAS(CONTACTS)) askIfSpheresLeave(inside, invocation, to, arc);
+    if (HAS(CONTACTS)) {  // no function: glslang would need minutes, because `precise` spreads through its parameter
+        real3 since = to - real3(ROW(listReference, invocation)) - real3(driftPath());
+        real3 relative = arc - real3(driftVelocity());
+        real moved = sqrt(dot3(since, since));
+        real next = sqrt(dot3(relative, relative)) * h;  // in the next substep, to whose end the lists must hold
+        mask soon = inside && moved + mostNext(motion) * SOON_SUBSTEPS > params.rebuildMove;
+        if (HAS(PERIODIC)) soon = soon || (inside && mustWrap(to + arc * (h * SOON_SUBSTEPS)));
+        if (!anyLane(soon)) return;
+        mask leaves = inside && moved + next > params.rebuildMove;
+        if (HAS(PERIODIC)) leaves = leaves || (inside && mustWrap(to));
+        askForLists(anyLane(leaves));
+    }
 }

@@ -83,17 +83,18 @@ void visitRange(uint a, uint begin, uint end) {
 // Finds room for the pairs of the group.
 void reserve() {
     groupPairs = 0u;
-    for (uint k = 0u; k < THREADS; ++k) {
+    uint k = 0u;
+    for (; k < THREADS; ++k) {
         uint count = firstOfThread[k];
         firstOfThread[k] = groupPairs;
         groupPairs = groupPairs + count;
     }
-    groupStart = 0u;
-    if (groupPairs > 0u && SEEN(counters[COUNTER_CANDIDATES]) < MOST_COUNTED)
+    cutShort = k < THREADS ? 1u : 0u;
+    groupStart = params.pairCapacity;
+    if (SEEN(counters[COUNTER_CANDIDATES]) < MOST_COUNTED)
         groupStart = atomicAdd(counters[COUNTER_CANDIDATES], groupPairs);
     // If it does not fit, list_order.comp makes no lists.
-    fits = groupPairs <= params.pairCapacity && groupStart <= params.pairCapacity - groupPairs;
-    cutShort = 0u;
+    fits = cutShort == 0u && groupPairs <= params.pairCapacity && groupStart <= params.pairCapacity - groupPairs;
 }
 
 LANE_BUNDLE_KERNEL(allCells() / 8u) {
@@ -108,7 +109,7 @@ LANE_BUNDLE_KERNEL(allCells() / 8u) {
         if (walk > 0u) continue;
         count = found;
         if (sampled > 0u) {
-            // Each new list takes another share of the pairs. The group therefore asks for a new list in each substep.
+            // Each new list takes another share of the pairs. So there must be new lists in each substep.
             atomicAdd(counters[COUNTER_SAMPLED], sampled);
             atomicOr(counters[COUNTER_REBUILD], REBUILD_DUE);
         }
@@ -117,6 +118,7 @@ LANE_BUNDLE_KERNEL(allCells() / 8u) {
         if (FIRST_THREAD) reserve();
         BARRIER
         base = groupStart + firstOfThread[THREAD];
+        found = 0u;  // also if the renderer ends the loop here
     }
     if (fits && count <= LOCAL_PAIRS)
         for (; found < count; ++found) candidates[base + found] = local[found];

@@ -47,6 +47,8 @@ KERNEL(1u) {
         float most = max(params.margin, OBSTACLE_SUBSTEPS * params.obstaclePath);
         due = due || (params.obstacles > FEW_OBSTACLES && path > most);
         soon = params.obstacles > FEW_OBSTACLES && path + SOON_SUBSTEPS * params.obstaclePath > most;
+        // An obstacle makes a sphere up to twice as fast.
+        soon = soon || 2.0f * SOON_SUBSTEPS * params.obstaclePath > params.rebuildMove;
     }
     bool rebuild = due && phase != 0u;
     if (HAS(MOTION)) counters[COUNTER_OBSTACLE_PATH] = floatBitsToUint(rebuild ? 0.0f : path);

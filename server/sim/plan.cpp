@@ -116,7 +116,7 @@ std::uint32_t invocationsOver(Varying what, const Plan& plan) {
     return 0;
 }
 
-// Returns the invocations per row of the launch table.
+// Returns `count` of the launches per row of the launch table.
 std::vector<std::uint32_t> launchTable(const Plan& plan) {
     const std::uint32_t cells = plan.grid.all() + 1;
     const std::uint32_t cellBlocks = blocksOf(cells, SCAN_BLOCK);

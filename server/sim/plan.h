@@ -50,7 +50,7 @@ struct LaunchSpec {
     std::string_view kernel;  // file
     std::uint32_t count = 0;  // invocations; bundles, if the kernel has a work group for each
     std::optional<std::uint32_t> launchRow =
-        std::nullopt;  // row of the launch table, for launches that only a rebuild needs
+        std::nullopt;  // row of the launch table, for launches of a rebuild, or without lists
     std::uint32_t phase = 0;
     Varying over = Varying::Nothing;  // each has an invocation: `count` follows
     bool decidesRebuild = false;      // `phase` tells whether the launches of a rebuild follow

@@ -1,6 +1,6 @@
 // Solves the contact of two spheres by the law of the model `balanced`. The includer binds `position`, `velocity`,
 // `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
-// included shared/separation.h, shared/contact_law.h and shared/contact_sums.h. It defines `void readHeldTorque()`, which
+// included shared/separation.h, shared/contact_law.h and shared/contact_sums.h. It defines `readHeldTorque()`, which
 // sets `heldTorque` of the contacts that are solved. Most listed pairs touch nothing and need no torque.
 
 RARE real4 contactOfMaterials(slots a, slots b) {

@@ -32,6 +32,48 @@ uint firstOfRow(uvec4 cells, uint row) {
     return cellIndex(cells, 0u, row == 0u || row == 3u ? y : (row == 2u ? south : north), row < 2u ? z : above);
 }
 
+// The first and the last cell of part `part` of such a row. Without the torus, it is one range of the sorted spheres.
+uvec2 partOfRow(uvec4 cells, uint row, uint part) {
+    uint x = cellPlace.x;
+    uint west = x == 0u ? cells.x - 1u : x - 1u;
+    uint east = x + 1u == cells.x ? 0u : x + 1u;
+    if (row == 0u) return part == 0u ? uvec2(x, x) : uvec2(east, east);
+    if (west < east) return uvec2(west, east);
+    return part == 0u ? uvec2(west, west) : (part == 1u ? uvec2(x, x) : uvec2(east, east));
+}
+
+uint partsOfRow(uvec4 cells, uint row) {
+    if (row == 0u) return 2u;
+    return cellPlace.x > 0u && cellPlace.x + 1u < cells.x ? 1u : 3u;
+}
+
+// The same for the chord of a finer level.
+uvec2 partOfChord(uvec4 cells, uint part) {
+    uint end = chord.start + chord.count - 1u;
+    return part == 0u ? uvec2(chord.start, min(end, cells.x - 1u)) : uvec2(0u, end - cells.x);
+}
+
+uint partsOfChord(uvec4 cells) {
+    if (chord.count == 0u) return 0u;
+    return chord.start + chord.count > cells.x ? 2u : 1u;
+}
+
+// The sorted spheres from `b` on that the sphere meets in this round: all of `count`, or a sample.
+uvec2 sampleOf(uint b, uint count, uint size, uint sampleRound) {
+    // Visits a share of the others now and another share in the next round.
+    uint shares = (count + size - 1u) / size;
+    uint skipped = sampleRound % shares * size;
+    return uvec2(b + skipped, b + min(skipped + size, count));
+}
+
+// Finds the chord of row `row` of the finer level that a sphere reaches. Returns the row's first cell.
+uint firstOfChord(uint row) {
+    uint y = row / reached.z.count;
+    uint z = row - y * reached.z.count;
+    chord = rowRun(reached, y, z);
+    return rowStart(reached, y, z);
+}
+
 // Visits the pairs of a sphere of the cell. Has only one call of visitRange: GLSL compilers copy the function to each
 // call, which takes seconds.
 void visitSphere(uint a, uint level, uint sampleSize, uint sampleRound) {
@@ -40,48 +82,23 @@ void visitSphere(uint a, uint level, uint sampleSize, uint sampleRound) {
     uint passes = HAS(LEVELS) ? 1u + level : 1u;
     for (uint pass = 0u; pass < passes; ++pass) {
         bool finer = HAS(LEVELS) && pass > 0u;
-        uvec4 cells = cellsOf(finer ? pass - 1u : level);
-        uint x = cellPlace.x;
-        bool whole = x > 0u && x + 1u < cells.x;
-        if (finer) reached = reachOf(position[a], pass - 1u);
+        uint other = finer ? pass - 1u : level;
+        uvec4 cells = cellsOf(other);
+        if (finer) reached = reachOf(position[a], other);
         uint rows = finer ? reached.rows : 5u;
         for (uint row = 0u; row < rows; ++row) {
-            // On the own level, a row is one range of the sorted spheres unless the torus cuts it.
-            uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
-            uint start = 0u;
-            if (finer) {
-                uint reachedY = row / reached.z.count;
-                uint reachedZ = row - reachedY * reached.z.count;
-                start = rowStart(reached, reachedY, reachedZ);
-                chord = rowRun(reached, reachedY, reachedZ);
-                parts = chord.count == 0u ? 0u : (chord.start + chord.count > cells.x ? 2u : 1u);
-            } else {
-                start = firstOfRow(cells, row);
-            }
+            uint first = finer ? firstOfChord(row) : firstOfRow(cells, row);
+            uint parts = finer ? partsOfChord(cells) : partsOfRow(cells, row);
             for (uint part = 0u; part < parts; ++part) {
-                uint from = 0u;
-                uint to = 0u;
-                if (finer) {
-                    uint ends = chord.start + chord.count - 1u;
-                    from = part == 0u ? chord.start : 0u;
-                    to = part == 0u ? min(ends, cells.x - 1u) : ends - cells.x;
-                } else {
-                    uint west = x == 0u ? cells.x - 1u : x - 1u;
-                    uint east = x + 1u == cells.x ? 0u : x + 1u;
-                    from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
-                    to = row > 0u && whole ? east : from;
-                }
-                uint b = !finer && row + part == 0u ? a + 1u : cellStart[start + from];
-                uint stop = cellStart[start + to + 1u];
-                if (b == stop) continue;
-                if (stop - b > (to - from + 1u) * sampleThreshold(finer ? pass - 1u : level)) {
-                    // Visits a share of the others now and another share in the next round.
-                    uint shares = (stop - b + sampleSize - 1u) / sampleSize;
-                    b = b + sampleRound % shares * sampleSize;
-                    stop = min(b + sampleSize, stop);
+                uvec2 span = finer ? partOfChord(cells, part) : partOfRow(cells, row, part);
+                uint begin = !finer && row + part == 0u ? a + 1u : cellStart[first + span.x];
+                uvec2 range = uvec2(begin, cellStart[first + span.y + 1u]);
+                if (range.x == range.y) continue;
+                if (range.y - range.x > (span.y - span.x + 1u) * sampleThreshold(other)) {
+                    range = sampleOf(range.x, range.y - range.x, sampleSize, sampleRound);
                     sampledHere = true;
                 }
-                visitRange(a, b, stop);
+                visitRange(a, range.x, range.y);
             }
         }
     }

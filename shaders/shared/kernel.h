@@ -54,7 +54,7 @@
 //                               It is launched with a number of work groups, as PAIR_KERNEL is.
 //   PAIR_THREADS                The number of threads of a work group of PAIR_KERNEL, which the device chooses.
 //   THREAD                      The number of the thread in its work group; 0 in C++.
-//   THREADS                     The number of threads of a work group; 1 in C++.
+//   THREADS                     The number of threads of a work group of BUNDLE_KERNEL; 1 in C++.
 //   FIRST_THREAD                True in one thread of the work group.
 //   SHARED(type, name)          Declares a variable of the work group.
 //   BARRIER                     Waits for all threads, and shows each what the others have written to such variables.

@@ -144,7 +144,7 @@ struct SphereStatistics {
 #define INSPECTED_SURFACE 0x80000000u
 
 // Words of the `counters` buffer.
-#define COUNTER_REBUILD 0u      // bits REBUILD_DUE and REBUILD_SOON
+#define COUNTER_REBUILD 0u      // bits, see below
 #define COUNTER_PAIRS 1u        // listed, with the space between bundles
 #define COUNTER_UNLISTED 2u     // bundles without room for their pairs
 #define COUNTER_NON_FINITE 3u   // not zero: the state of a sphere became non-finite
@@ -168,7 +168,7 @@ struct SphereStatistics {
 #define COUNTER_DRIFT_PATH 32u  // three words, bits of floats (m), since the lists were built
 #define COUNTER_NEAR_OBSTACLES 35u  // words of the lists of obstacles near spheres
 #define COUNTER_SUNK 36u        // spheres in sinks at the end of a step
-#define COUNTER_CUT_SHORT 37u   // cell groups whose lists the renderer cut short, since the start
+#define COUNTER_CUT_SHORT 37u   // bundles or groups of cells whose lists the renderer cut short, since the start
 #define COUNTER_OBSTACLE_PATH 38u // bits of a float (m): the most that obstacles have moved since the lists were built
 #define COUNTER_WORDS 39u
 
@@ -178,8 +178,8 @@ struct SphereStatistics {
 #define REBUILD_SOON 2u         // in the last substep, a sphere was SOON_SUBSTEPS away from asking for new lists
 #define REBUILD_WAS_SOON 4u     // the same, if spheres move before rebuild_decide.comp
 #define LISTS_MISSING 8u        // there was no room for the present lists
-// Three times as many as the host is ahead. In the frame of the drift, a heavy sphere that meets a light one at equal and
-// opposite speeds makes it three times as fast.
+// Three times as many as the host is ahead: a heavy sphere that meets a light one at equal and opposite speeds makes it
+// three times as fast.
 #define SOON_SUBSTEPS 6.0f
 
 // Bits of COUNTER_RESTING.
@@ -212,7 +212,7 @@ struct SphereStatistics {
 #define LAUNCH_ROWS 14u
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
-#define UNLISTED 0xffffffffu    // pair count of a group or a bundle without a list
+#define UNLISTED 0xffffffffu    // pair count of a bundle without a list
 #define STATISTIC_BLOCK 256u    // spheres per partial sum
 
 // The order of pairs: see shared/bundles.h.
@@ -224,7 +224,7 @@ struct SphereStatistics {
 #define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float
 #define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
 // Behind these words are rows of contact sums for each bundle and thread (shared/contact_sums.h).
-#define BUNDLE_THREADS 64u      // threads of the work group of a bundle
+#define BUNDLE_THREADS 64u      // parts in which the statistics of a bundle are added up
 #define MOST_PAIR_THREADS 256u  // of PAIR_KERNEL
 #define SUM_WORDS 8u            // virial xx yy zz xy xz yz (J s), collisions, 0
 // Sums over the contacts with each surface (shared/surface_sums.h).

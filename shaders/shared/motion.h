@@ -105,8 +105,8 @@ bool leavesLists(vec3 to, vec3 v, vec4 reference, float radius, float ahead) {
     float moved = sqrt(dot3(drifted, drifted));
     vec3 relative = v - driftVelocity();
     // In `balanced`, the lists must hold to the end of the next substep.
-    float held = time + (HAS(BALANCED) ? params.substep : 0.0f);
-    if (held > 0.0f) moved = moved + sqrt(dot3(relative, relative)) * held;
+    if (HAS(BALANCED)) moved = moved + sqrt(dot3(relative, relative)) * params.substep;
+    moved = moved + mostNext(sqrt(dot3(v, v)) * params.substep) * ahead;
     bool leftMargin = moved > params.rebuildMove;
     if (roomOf(reference) == 0.0f) return leftMargin;
     if (leftMargin && !(beyondStrip(to) && beyondStrip(vec3(reference)))) return true;
@@ -128,6 +128,7 @@ void checkMotion(uint sphere, vec4 x, vec3 v, vec3 to) {
         float motion = riskyMotion(withXyz(x, to), v, reference);
         if (motion > safe) atomicMax(counters[COUNTER_LARGEST_MOTION], floatBitsToUint(motion * SAFE_MOTION / safe));
     }
-    if (HAS(CONTACTS) && leavesLists(to, v, reference, storedRadius(x), SOON_SUBSTEPS))
-        askForLists(leavesLists(to, v, reference, storedRadius(x), 0.0f));
+    if (!HAS(CONTACTS)) return;
+    bool now = leavesLists(to, v, reference, storedRadius(x), 0.0f);
+    if (now || leavesLists(to, v, reference, storedRadius(x), SOON_SUBSTEPS)) askForLists(now);
 }

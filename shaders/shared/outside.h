@@ -45,6 +45,11 @@ float strip() {
     return 1.0f / params.inverseCell;
 }
 
+mask leavesBounds(real3 p) {
+    return p.x < params.wallMin.x || p.x > params.wallMax.x || p.y < params.wallMin.y || p.y > params.wallMax.y ||
+           p.z < params.wallMin.z || p.z > params.wallMax.z;
+}
+
 bool beyondStrip(vec3 p) {
     return beyond(p) > strip();
 }

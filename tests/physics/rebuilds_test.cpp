@@ -78,6 +78,26 @@ TEST(Rebuilds, AreLaunchedWhenAnImpactSpeedsUpRestingSpheres) {
     }
 }
 
+// The lists move with spheres that all have one velocity. The floor turns back the first one.
+TEST(Rebuilds, AreLaunchedWhenACommonFlightMeetsTheFloor) {
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced})
+        for (const double share : {0.1, 0.2, 0.3, 0.4, 0.49}) {  // of the radius, in a substep
+            scene::Scene scene = fineStepBox(20);
+            scene.quality.model = model;
+            scene.forces.gravity = {};
+            setRestitution(scene, 1);
+            constexpr double radius = 0.05;
+            for (int k = 0; k < 12; ++k)
+                scene.spheres.push_back({.position = {0, 0, -9.5 + 3.1 * radius * k},
+                                         .velocity = {0, 0, static_cast<float>(-share * radius * 480)},
+                                         .radius = static_cast<float>(radius)});
+            const auto simulation = simulate(scene);
+            EXPECT_EQ(lateRebuilds(*simulation, static_cast<unsigned>(60 / share)), 0U)
+                << share << ", " << scene::nameOf(model);
+            EXPECT_GT(simulation->snapshot().velocity.back().z, 0) << "the last one was turned back";
+        }
+}
+
 TEST(Rebuilds, AreNotLaunchedInABedAtRest) {
     scene::Scene scene = named("box-4k");
     scene.sleep.enabled = false;

@@ -25,11 +25,12 @@ class State {
     // Orders launches, so that each sees the writes of earlier launches. Kernels write no uniform block. The barrier of
     // the arguments of indirect launches costs up to 1.8 us on an H100. It is issued before the next indirect launch,
     // and only if a launch had their buffer at a slot, or if the buffer is another one.
-    void beforeLaunch();
     void afterLaunch();
+    // Makes the launch wait for the copies before it: see afterCopy().
+    void beforeLaunch();
     // Makes the writes of launches visible to copies, fills and uploads, which then wait until the launches are done.
     void beforeCopy();
-    // Makes later launches wait for the copy: they may write what it reads.
+    // Call after a copy, because the next launch may write what it reads.
     void afterCopy();
 
   private:

@@ -10,7 +10,9 @@
 namespace spherule::compute::gl {
 
 GlWordQueue::GlWordQueue(std::shared_ptr<Context> context)
-    : context_(std::move(context)), staging_(context_, Staging::Direction::FromDevice) {}
+    : context_(std::move(context)), staging_(context_, Staging::Direction::FromDevice) {
+    static_cast<void>(staging_.reserve(most * sizeof(std::uint32_t)));  // without memory, take() tells of a lost device
+}
 
 GlWordQueue::~GlWordQueue() {
     context_->use();
@@ -21,7 +23,7 @@ void GlWordQueue::start(const Buffer& buffer, std::size_t offset) {
     checkRange("copy of a word", buffer, offset, sizeof(std::uint32_t));
     if (fences_.size() == most) programError("too many words are under way");
     context_->use();
-    if (staging_.reserve(most * sizeof(std::uint32_t))) {
+    if (staging_.data() != nullptr) {
         context_->state().beforeCopy();
         glCopyNamedBufferSubData(static_cast<const GlBuffer&>(buffer).id(), staging_.id(),
                                  static_cast<GLintptr>(offset), static_cast<GLintptr>(next_ * sizeof(std::uint32_t)),

@@ -67,7 +67,7 @@ class PlanBuilder {
     void once(Stage stage, Pass pass, std::string_view kernel);
     // Runs once. Its phase is 1 if the launches of a rebuild follow, else 0.
     void decidesRebuild(Stage stage, Pass pass, std::string_view kernel);
-    // Runs while the lists are rebuilt. Row `row` of the launch table holds the number of invocations.
+    // Runs while the lists are rebuilt. Row `row` of the launch table holds `count` of the launch.
     void onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::vector<Alias> aliases = {});
     // Turns the values of an array into exclusive prefix sums, in blocks and in blocks of blocks. `rows` of the launch
     // table: the row for blocks, then the row for blocks of blocks.
