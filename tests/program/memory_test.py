@@ -56,9 +56,9 @@ class Memory(FolderTestCase):
             self.assertEqual(done.returncode, code, f"{limit}: {done.stderr}")
 
     def test_a_load_beside_the_world_that_runs_is_refused_and_that_goes_on(self):
-        with Server(BINARY, "serve", self.scene(200_000), "--device", "cpu:1", "--memory-limit", "340MiB") as server:
+        with Server(BINARY, "serve", self.scene(200_000), "--device", "cpu:1", "--memory-limit", "350MiB") as server:
             done = call("ctl", server.stream, "load", self.scene(300_000))
-            self.refused(done, "a scene of 300000 spheres", "--memory-limit allows 340 MiB", "what runs here holds ")
+            self.refused(done, "a scene of 300000 spheres", "--memory-limit allows 350 MiB", "what runs here holds ")
             self.assertEqual(call("ctl", server.stream, "load", "two-spheres").returncode, 0)
             done = call("ctl", server.stream, "load", self.scene(300_000))
             self.assertEqual(done.returncode, 0, f"alone it has room: {done.stderr}")

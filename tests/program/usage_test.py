@@ -90,7 +90,7 @@ class Usage(unittest.TestCase):
                 ("serve", "bounce", "--listen", "here"):
                     '--listen: is "here"; give host:port, such as 127.0.0.1:8080; see `spherule serve --help`',
                 ("run", "bounce", "--for", "1s", "--device", "abacus"):
-                    '--device: "abacus" is none of auto, gpu, gpu:N (N from 0), cpu, cpu:N (N threads), software; '
+                    '--device: "abacus" is none of auto, gpu, gpu:N (N from 0), gpu:cuda:N (as CUDA counts), cpu, cpu:N (N threads), software; '
                     'see `spherule run --help`',
         }.items():
             self.assertEqual(self.refusal(*arguments), said)
