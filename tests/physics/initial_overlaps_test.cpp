@@ -60,11 +60,11 @@ double speedOfSprings(unsigned spheres, double seconds) {
     return fastest;
 }
 
-// The fastest of 600 spheres in a squeezed bed is a matter of chance: 1.5 to 4.6 m/s.
+// The fastest of 600 spheres in a squeezed bed is a matter of chance: 1.5 to 4.3 m/s.
 TEST(InitialOverlaps, CompressedBedsRiseSlowlyAfterAChangeToSprings) {
     std::vector<double> speeds;
     for (const unsigned spheres : {590U, 595U, 600U, 605U, 610U, 615U})
-        for (const double seconds : {1.9, 2.0, 2.1}) speeds.push_back(speedOfSprings(spheres, seconds));
+        for (const double seconds : {1.9, 2.1}) speeds.push_back(speedOfSprings(spheres, seconds));
     std::ranges::sort(speeds);
     EXPECT_LT(speeds[speeds.size() / 2], std::sqrt(2 * earth * 0.5)) << "faster than from half a metre";
     EXPECT_LT(speeds.back(), std::sqrt(2 * earth * 1.5)) << "faster than from one and a half metres";
