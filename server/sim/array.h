@@ -23,8 +23,8 @@ constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 enum class Extent : std::uint8_t {
     Sphere,
     SphereAndColour,  // each sphere, once for each colour of bundles
-    PaddedSphere,    // with PAIR_PADDING more at the end
-    RememberedWall,  // each wall contact that a sphere remembers
+    PaddedSphere,     // with PAIR_PADDING more at the end
+    RememberedWall,   // each wall contact that a sphere remembers
     CellEnd,
     Group,           // of 2 x 2 x 2 cells
     Block,           // of 4 x 4 x 4 cells
