@@ -30,12 +30,8 @@ struct Cells {
 
     void sort() {
         const Launch how{.parameters = &parameters, .features = allFeatures};
-        const Slot slots[] = {{"position", position},
-                              {"cellStart", start},
-                              {"rankInCell", place},
-                              {"cellOfSphere", cells},
-                              {"cellOrder", order},
-                              {"idAndMaterial", id}};
+        const Slot slots[] = {{"position", position},  {"cellStart", start}, {"rankInCell", place},
+                              {"cellOfSphere", cells}, {"cellOrder", order}, {"idAndMaterial", id}};
         launch("cell_clear", slots, how);
         launch("cell_count", slots, how);
         prefixSum(start);

@@ -159,8 +159,8 @@ TEST(KernelsAsCpp, WithoutListsContactsForget) {
     for (const vec4& held : bed.heldVelocity) EXPECT_EQ(vec3(held), vec3(0));
 }
 
-// 40 spheres in one place own up to 39 contacts. Those that own too many lose all: which of them have room depends on the
-// order of the threads.
+// 40 spheres in one place own up to 39 contacts. Those that own too many lose all: which of them have room depends on
+// the order of the threads.
 TEST(KernelsAsCpp, CrowdLosesTheContactsOfSpheresThatOwnTooMany) {
     std::vector<vec4> places(40, vec4(0.5F, 0.5F, 0.5F, 0.5F));
     for (std::size_t k = 0; k < places.size(); ++k) places[k].x += 1e-3F * static_cast<float>(k);
