@@ -57,7 +57,7 @@ PRIVATE(real3, spinByWalls)     // the change of spin by them (rad/s)
 PRIVATE(real, partsBefore)      // partOfSurface() of the surfaces at which the sphere held an impulse
 PRIVATE(real, partsNow)         // the same after the substep
 PRIVATE(mask, touchesWalls)
-PRIVATE(mask, seenRow[8])  // of the rows of `wallImpulse`: the sphere has visited the surface
+PRIVATE(uints, seenRows)  // a bit for each row of `wallImpulse` whose surface the sphere has visited
 PRIVATE(real3, momentOfRolling) // at one surface, about the centre of the sphere (N m s)
 
 // The row of `wallImpulse` for a contact. The first three rows are for the axes of the bounds, the others for obstacles
@@ -66,7 +66,7 @@ uints rowOfSurface(mask where, uint surface, uints key) {
     uints first = sphereId * params.maxWallHistory;
     if (surface < 6u) return first + surface / 2u;
     uints found = first + 3u;
-    real foundRow = real(0.0f);  // none
+    uints foundBit = uints(0u);
     mask known = noLane();
     mask empty = noLane();
     for (uint k = 3u; k < params.maxWallHistory; ++k) {
@@ -74,12 +74,11 @@ uints rowOfSurface(mask where, uint surface, uints key) {
         mask here = isAtSurface(row, key);
         mask usable = !known && (here || (!empty && row.w == 0.0f));
         found = select(usable, first + k, found);
-        foundRow = select(usable, real(float(k)), foundRow);
+        foundBit = select(usable, uints(1u << k), foundBit);
         known = known || here;
         empty = empty || row.w == 0.0f;
     }
-    if (HAS(MESHES))
-        for (uint k = 3u; k < params.maxWallHistory; ++k) seenRow[k] = seenRow[k] || (where && foundRow == float(k));
+    if (HAS(MESHES)) seenRows = select(where, seenRows | foundBit, seenRows);
     return found;
 }
 
@@ -94,7 +93,8 @@ RARE void endLeftContacts() {
     uints first = sphereId * params.maxWallHistory;
     for (uint k = 3u; k < params.maxWallHistory; ++k) {
         real4 held = ROW(wallImpulse, first + k);
-        mask left = sphereAwake && containsPart(partsBefore, 6u) && !seenRow[k] && held.w != 0.0f;
+        mask seen = (seenRows & uints(1u << k)) != uints(0u);
+        mask left = sphereAwake && containsPart(partsBefore, 6u) && !seen && held.w != 0.0f;
         if (!anyLane(left)) continue;
         touchesWalls = touchesWalls || left;
         sphereVelocity = select(left, sphereVelocity - real3(held) * inverseMass, sphereVelocity);
@@ -303,8 +303,7 @@ void solveWalls(uintRow at) {
     sphereId = idOf(word);
     sphereMaterial = HAS(MATERIALS) ? materialOf(word) : uints(params.material);
     startVelocity = ROW(velocityBefore, at);
-    if (HAS(MESHES))
-        for (uint k = 3u; k < params.maxWallHistory; ++k) seenRow[k] = noLane();
+    seenRows = uints(0u);
     visitSurfaces(near);
     if (HAS(MESHES)) endLeftContacts();
 }

@@ -103,7 +103,7 @@ ANY_REAL heldPairs(ANY_REAL4 held) {
 
 // True if a sum of parts contains the surface's part.
 ANY_MASK containsPart(ANY_REAL parts, uint surface) {
-    ANY_REAL scaled = parts * (64.0f / float(1u << min(surface, 6u)));
+    ANY_REAL scaled = parts * float(64u >> min(surface, 6u));
     return scaled - floor(scaled) >= 0.5f;
 }
 

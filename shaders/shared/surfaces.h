@@ -15,14 +15,30 @@
 // shared/shapes.h, shared/mesh_layout.h and shared/moving.h, whose variables describe the motion of the visited surface.
 // It has also included shared/gathered_contacts.h, or has defined its functions gather() and visitGathered().
 
-void visitFaces(uint axis, real coordinate, float low, float high, real3 normal) {
-    // The springs of `accurate` need the difference of the places without rounding.
-    real aboveLow = HAS(BALANCED) ? coordinate - sphereRadius - low : coordinate - low - sphereRadius;
-    if ((params.closedFaces & (1u << (2u * axis))) != 0u)
-        visitSurface(true, normal, aboveLow, real(0.0f), params.wallMaterial, 2u * axis, 2u * axis);
-    if ((params.closedFaces & (2u << (2u * axis))) != 0u)
-        visitSurface(true, -normal, high - coordinate - sphereRadius, real(0.0f), params.wallMaterial, 2u * axis + 1u,
-                     2u * axis + 1u);
+// The visited surface as a plane: its normal, the separation and the recession.
+PRIVATE(real3, planeNormal)
+PRIVATE(real, planeSeparation)
+PRIVATE(real, planeRecession)
+
+// A loop has one call of visitSurface(). Compilers for GPUs copy its code to each of its calls.
+void visitFaces() {
+    for (uint face = 0u; face < 6u; ++face) {
+        if ((params.closedFaces & (1u << face)) == 0u) continue;
+        uint axis = face / 2u;
+        real coordinate = axis == 0u ? spherePoint.x : axis == 1u ? spherePoint.y : spherePoint.z;
+        real3 normal = real3(axis == 0u ? 1.0f : 0.0f, axis == 1u ? 1.0f : 0.0f, axis == 2u ? 1.0f : 0.0f);
+        real separation = real(0.0f);
+        if (face % 2u == 0u) {
+            float low = axis == 0u ? params.wallMin.x : axis == 1u ? params.wallMin.y : params.wallMin.z;
+            // The springs of `accurate` need the difference of the places without rounding.
+            separation = HAS(BALANCED) ? coordinate - sphereRadius - low : coordinate - low - sphereRadius;
+        } else {
+            float high = axis == 0u ? params.wallMax.x : axis == 1u ? params.wallMax.y : params.wallMax.z;
+            separation = high - coordinate - sphereRadius;
+            normal = -normal;
+        }
+        visitSurface(true, normal, separation, real(0.0f), params.wallMaterial, face, face);
+    }
 }
 
 // True for spheres so far inside the bounds that none of the faces is within `reach` (m) of them, as for most spheres.
@@ -56,63 +72,52 @@ real4 laterSurfaceAt(Obstacle obstacle, uint part, real share, real3 point) {
     return movedSurfaceAt(obstacle, obstacles[obstacle.motion], part, share, point);
 }
 
-// Visits a part of an obstacle that is curved or moves. Lanes in `close` may meet it in this substep: for them it is the
-// plane that touches it where they meet it. `surface` is the surface nearest to the sphere now. `relative` is the velocity
-// of the sphere relative to its material (m/s), `number` the number of the surface.
-void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface, real3 relative, uint number,
-                 uint key) {
+// Sets the plane of a part of an obstacle that is curved or moves, for lanes in `close`, which may meet it in this
+// substep: the plane that touches it where they meet it. Before, the plane is that of the surface nearest to the sphere
+// now. `relative` is the velocity of the sphere relative to its material (m/s).
+void meetCurved(mask close, Obstacle obstacle, uint part, real3 relative) {
     real h = real(params.substep);
     real3 v = velocityAlong();
-    real3 normal = real3(surface);
-    real separation = surface.w - sphereRadius;
-    real recession = real(0.0f);
-    real closing = -dot3(relative, normal);
+    real closing = -dot3(relative, planeNormal);
     // `fast` has moved the sphere beyond the meeting, `balanced` has not moved it yet.
-    mask meets = close && closing > 0.0f && (HAS(FAST) ? separation < 0.0f : separation > 0.0f);
-    if (anyLane(meets)) {
-        real earliest = HAS(FAST) ? -h : real(0.0f);
-        real latest = HAS(FAST) ? real(0.0f) : h;
-        real time = separation / max(closing, real(1.0e-30f));
-        for (uint k = 0u; k < 2u; ++k) {
-            time = min(max(time, earliest), latest);
-            real3 point = spherePoint + v * time;
-            real share = time * params.perSubstep;
-            real4 there = laterSurfaceAt(obstacle, part, share, point);
-            real3 n = real3(there);
-            real gap = there.w - sphereRadius;
-            real speed = dot3(relativeTo(obstacle, share, point, v), n);
-            if (k == 1u) {
-                separation = select(meets, gap - speed * time, separation);
-                normal = select(meets, n, normal);
-            }
-            time = time - gap / min(speed, real(-1.0e-30f));
+    mask meets = close && closing > 0.0f && (HAS(FAST) ? planeSeparation < 0.0f : planeSeparation > 0.0f);
+    real earliest = HAS(FAST) ? -h : real(0.0f);
+    real latest = HAS(FAST) ? real(0.0f) : h;
+    real time = planeSeparation / max(closing, real(1.0e-30f));
+    // Two steps to the meeting, and one for the recession at the end of the substep. (In one loop, as in visitFaces().)
+    for (uint k = anyLane(meets) ? 0u : 2u; k < (HAS(BALANCED) ? 3u : 2u); ++k) {
+        time = k == 2u ? h : min(max(time, earliest), latest);
+        real3 along = k == 2u ? v - planeNormal * dot3(relative, planeNormal) : v;
+        real3 point = spherePoint + along * time;
+        real share = k == 2u ? real(1.0f) : time * params.perSubstep;
+        real4 there = laterSurfaceAt(obstacle, part, share, point);
+        real3 n = real3(there);
+        real speed = dot3(n, relativeTo(obstacle, share, point, along));
+        real gap = there.w - sphereRadius;
+        if (k == 1u) {
+            planeSeparation = select(meets, gap - speed * time, planeSeparation);
+            planeNormal = select(meets, n, planeNormal);
         }
+        if (k == 2u) planeRecession = select(close, speed * 0.5f, planeRecession);
+        time = time - gap / min(speed, real(-1.0e-30f));
     }
-    if (HAS(BALANCED)) {
-        real3 along = v - normal * dot3(relative, normal);
-        real3 point = spherePoint + along * h;
-        real4 end = laterSurfaceAt(obstacle, part, real(1.0f), point);
-        recession = select(close, dot3(real3(end), relativeTo(obstacle, real(1.0f), point, along)) * 0.5f, recession);
-    }
-    visitSurface(where, normal, separation, recession, obstacle.material, number, key);
 }
 
 // Visits a part of an obstacle. `surface` is the surface nearest to the sphere.
 void visitPart(mask where, Obstacle obstacle, uint part, real4 surface, bool curved, uint number, uint key) {
-    real separation = surface.w - sphereRadius;
+    planeNormal = real3(surface);
+    planeSeparation = surface.w - sphereRadius;
+    planeRecession = real(0.0f);
     real3 v = velocityAlong();
     bool moving = isMoving(obstacle);
     if (moving) {
-        real3 normal = real3(surface);
-        real3 point = spherePoint - normal * surface.w;
-        setSurfaceMotion(obstacles[obstacle.motion], point, normal);
+        real3 point = spherePoint - planeNormal * surface.w;
+        setSurfaceMotion(obstacles[obstacle.motion], point, planeNormal);
         if (looksAhead()) v = relativeTo(obstacle, real(0.0f), point, v);
     }
-    mask close = where && separation < sqrt(dot3(v, v)) * params.substep;
-    if ((curved || moving) && anyLane(close))
-        visitCurved(where, close, obstacle, part, surface, v, number, key);
-    else
-        visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, number, key);
+    mask close = where && planeSeparation < sqrt(dot3(v, v)) * params.substep;
+    if ((curved || moving) && anyLane(close)) meetCurved(close, obstacle, part, v);
+    visitSurface(where, planeNormal, planeSeparation, planeRecession, obstacle.material, number, key);
     if (moving) setSurfaceAtRest();
 }
 
@@ -145,10 +150,6 @@ void visitObstacles(uints from) {
 // `near`: what obstaclesNear() returned.
 void visitSurfaces(uints near) {
     if (HAS(MOTION)) setSurfaceAtRest();
-    if (HAS(WALLS)) {
-        visitFaces(0u, spherePoint.x, params.wallMin.x, params.wallMax.x, real3(1.0f, 0.0f, 0.0f));
-        visitFaces(1u, spherePoint.y, params.wallMin.y, params.wallMax.y, real3(0.0f, 1.0f, 0.0f));
-        visitFaces(2u, spherePoint.z, params.wallMin.z, params.wallMax.z, real3(0.0f, 0.0f, 1.0f));
-    }
+    if (HAS(WALLS)) visitFaces();
     if (HAS(OBSTACLES)) visitObstacles(near);
 }

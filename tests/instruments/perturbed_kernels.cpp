@@ -1,5 +1,6 @@
-// The kernels with perturbed arithmetic. SPHERULE_PERTURBED_SEED: the seed; 1 without it. SPHERULE_PERTURBED_ULP: the
-// largest error of divisions, square roots and products (ulp), for a control.
+// The kernels with perturbed arithmetic. SPHERULE_PERTURBED_SEED: the seed; 1 without it. SPHERULE_PERTURBED_DIVISIONS
+// and SPHERULE_PERTURBED_PRODUCTS: the largest errors (ulp). SPHERULE_PERTURBED_KERNEL: only kernels whose C++ name has
+// this text are perturbed, to find the one that breaks a law.
 #include <cstdlib>
 #include <string>
 
@@ -20,9 +21,14 @@ std::uint32_t fromEnvironment(const char* name, std::uint32_t otherwise) {
 
 const Perturbation& asked() {
     static const Perturbation only{.seed = fromEnvironment("SPHERULE_PERTURBED_SEED", 1),
-                                   .divisions = fromEnvironment("SPHERULE_PERTURBED_ULP", 2),
-                                   .products = fromEnvironment("SPHERULE_PERTURBED_ULP", 1)};
+                                   .divisions = fromEnvironment("SPHERULE_PERTURBED_DIVISIONS", 2),
+                                   .products = fromEnvironment("SPHERULE_PERTURBED_PRODUCTS", 1)};
     return only;
+}
+
+bool isAsked(std::string_view kernel) {
+    static const char* const text = std::getenv("SPHERULE_PERTURBED_KERNEL");
+    return text == nullptr || kernel.find(text) != std::string_view::npos;
 }
 
 }  // namespace
@@ -37,6 +43,7 @@ template <class Kernel>
 void run(const Binding& binding, uint begin, uint end) {
     instruments::perturbation = instruments::asked();
     instruments::perturbation.salt = instruments::saltOf(__PRETTY_FUNCTION__, instruments::perturbation.seed);
+    if (!instruments::isAsked(__PRETTY_FUNCTION__)) instruments::perturbation.seed = 0;
     Kernel kernel(binding);
     for (uint invocation = begin; invocation < end; ++invocation) kernel.kernelBody(invocation);
 }

@@ -135,8 +135,9 @@ void compareOneSubstep(Agreement& agreement, const scene::Scene& scene) {
 void expectToAgree(const Agreement& agreement) {
     EXPECT_EQ(agreement.positions, 240'000U);
     EXPECT_GT(agreement.touching, 240'000U) << "pairs in all";
-    EXPECT_LE(agreement.apart, 24U) << "of 240,000 positions";
-    EXPECT_LE(agreement.faster, 24U) << "of 240,000 velocities differ by more than 1 mm/s";
+    const unsigned most = 24 * support::errorOfDivisions();
+    EXPECT_LE(agreement.apart, most) << "of 240,000 positions";
+    EXPECT_LE(agreement.faster, most) << "of 240,000 velocities differ by more than 1 mm/s";
     testing::Test::RecordProperty("distance", std::to_string(agreement.distance * 1e9) + "e-9");
     testing::Test::RecordProperty("apart", static_cast<int>(agreement.apart));
     testing::Test::RecordProperty("faster", static_cast<int>(agreement.faster));
@@ -159,12 +160,13 @@ TEST(BoxAgainstReference, OneSubstepWithFrictionAgrees) {
 }
 
 // Runs both for 0.5 s from the same state, and compares averages over this time and over several boxes. During a
-// collapse, the contacts of a single box differ by 3 % (standard deviation) with the order of the pairs.
+// collapse, the contacts of a single box differ by 3 % (standard deviation) with the order of the pairs: by 0.8 % in the
+// mean of 32 pairs of boxes.
 void expectTheSameHalfSecond(double from) {
     Figures device;
     Figures reference;
     constexpr int steps = 240;
-    constexpr int boxes = 8;
+    constexpr int boxes = 32;
     for (std::uint64_t seed = 11; seed < 11 + boxes; ++seed) {
         const scene::Scene scene = boxOf200(seed);
         const auto simulation = simulate(scene);

@@ -15,6 +15,13 @@ inline std::string testDevice() {
     return named == nullptr ? "software" : named;
 }
 
+// The largest error of a division or a square root, over that of a processor (0.5 ulp). OpenGL allows GPUs 2 ulp, which
+// perturbed arithmetic has, too.
+inline unsigned errorOfDivisions() {
+    const bool exact = testDevice().starts_with("cpu") || testDevice().starts_with("software");
+    return exact && std::getenv("SPHERULE_PERTURBED_SEED") == nullptr ? 1 : 4;
+}
+
 inline std::unique_ptr<compute::Device> openTestDevice() {
     return valueOf(compute::openDevice(testDevice()));
 }
