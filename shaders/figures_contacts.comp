@@ -29,7 +29,8 @@ void visitPair(uint a, uint b) {
     atomicAdd(touching[a], 1u);
     atomicAdd(touching[b], 1u);
     if (!(squared < reach * reach)) return;
-    uint overlap = floatBitsToUint((reach - sqrt(squared)) / smallerRadius(pa, pb));
+    // A rounded root may exceed `reach`, and the bits of a negative number are large.
+    uint overlap = floatBitsToUint(max(reach - sqrt(squared), 0.0f) / smallerRadius(pa, pb));
     atomicMax(deepest[a], overlap);
     atomicMax(deepest[b], overlap);
 }

@@ -79,12 +79,17 @@ KERNEL(params.spheres) {
     }
     bool fallsAsleep = inTime && quietTime >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
     if (HAS(GRAVITY)) {
-        vec3 pull = vec3(params.gravity) * params.substep;
-        if (HAS(FIELDS))
-            pull = meanAcceleration(vec3(params.gravity), p, vec3(u), radiusOf(position[invocation]),
-                                    inverseMassOf(v)) * params.substep;
-        vec3 contactChange = vec3(v) - vec3(u) - pull;
-        fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > 0.25f * dot3(pull, pull);
+        vec3 pull = vec3(params.gravity);
+        vec3 change = pull;
+        if (HAS(FIELDS)) {
+            // The threshold has no drag. Drag takes all of gravity from a sphere at its terminal speed, and leaves two
+            // differences of rounding to compare.
+            pull = accelerationOnPath(pull, p, vec3(u));
+            change = withDrag(pull, vec3(u), radiusOf(position[invocation]), inverseMassOf(v));
+        }
+        vec3 contactChange = vec3(v) - vec3(u) - change * params.substep;
+        float least = 0.5f * params.substep;
+        fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > least * least * dot3(pull, pull);
     }
     if (HAS(FRICTION)) {
         vec3 spin = vec3(angularVelocity[invocation]) * radiusOf(position[invocation]);

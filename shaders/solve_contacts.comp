@@ -33,6 +33,7 @@ PRIVATE(uintRow, memory)   // of the contacts that are solved
 #include "shared/contact.h"
 #include "shared/friction.h"
 #include "shared/contact_law.h"
+#include "shared/wake.h"
 #include "shared/contact_sums.h"
 
 void readHeldTorque() {

@@ -90,8 +90,8 @@ void visitPair(uint a, uint b) {
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
     float speed = dot3(vec3(va) - vec3(vb), n);
-    Spring spring = springOf(reach - distanceOf(normal), speed, speed, ra * rb / reach, inverseMassSum,
-                             stiffnessOf(a, b));
+    float overlap = max(reach - distanceOf(normal), 0.0f);  // a rounded root may exceed `reach`
+    Spring spring = springOf(overlap, speed, speed, ra * rb / reach, inverseMassSum, stiffnessOf(a, b));
     vec3 impulse = n * spring.impulse;
     // A collision is counted when the spheres begin to touch.
     if (HAS(CONTACT_SUMS)) addToContactSums(true, n * distanceOf(normal), impulse, spring.share < 1.0f);

@@ -26,6 +26,7 @@ BUFFER(readonly, ContactParams, contactParams)
 #include "shared/contact_params.h"
 #include "shared/contact_sums.h"
 #include "shared/friction_pair.h"
+#include "shared/wake.h"
 
 // An impact may be found late, because the sweep visits a pair once, perhaps before other impacts change its course.
 // Courses are followed back for this number of substeps at most: farther back, other impacts have bent them.
@@ -52,6 +53,7 @@ void visitPair(uint a, uint b) {
     float ma = effectiveInverseMass(va);
     float mb = effectiveInverseMass(vb);
     if (ma + mb == 0.0f) return;
+    if (HAS(SLEEP) && ((isAsleep(va) && isFast(vec3(vb))) || (isAsleep(vb) && isFast(vec3(va))))) return;
     float effectiveMass = 1.0f / (ma + mb);
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
     vec3 difference = vec3(va) - vec3(vb);

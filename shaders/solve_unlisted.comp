@@ -24,6 +24,7 @@ BUFFER(restrict, uint, bundles)
 #include "shared/contact.h"
 #include "shared/friction.h"
 #include "shared/contact_law.h"
+#include "shared/wake.h"
 #include "shared/contact_sums.h"
 
 #define readHeldTorque()  // contacts hold nothing; with a function, glslang would need minutes

@@ -35,7 +35,7 @@ void visitPair(uint a, uint b) {
     atomicAdd(touching[a], 1u);
     atomicAdd(touching[b], 1u);
     if (!(squared < reach * reach)) return;
-    float overlap = (reach - sqrt(squared)) / smallerRadius(pa, pb);
+    float overlap = max(reach - sqrt(squared), 0.0f) / smallerRadius(pa, pb);
     contacts = contacts + 1.0f;
     sum = sum + overlap;
     largest = max(largest, overlap);

@@ -1,6 +1,6 @@
 // Solves the contact of two spheres by the law of the model `balanced`. The includer binds `position`, `velocity`,
 // `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
-// included shared/separation.h, shared/contact_law.h and shared/contact_sums.h. It defines `readHeldTorque()`, which
+// included shared/separation.h, shared/contact_law.h, shared/wake.h and shared/contact_sums.h. It defines `readHeldTorque()`, which
 // sets `heldTorque` of the contacts that are solved. Most listed pairs touch nothing and need no torque.
 
 RARE real4 contactOfMaterials(slots a, slots b) {
@@ -193,6 +193,10 @@ mask solvePairs(mask where, slots a, slots b, bool remembers) {
         Impact found =
             impactOf(approaching, held, a, b, d, squared, reach, separation, va, vb, n, before, target, lever, e);
         involved = involved && !found.missed;
+        if (HAS(SLEEP)) {
+            mask waits = (isAsleep(va) && isFast(real3(vb))) || (isAsleep(vb) && isFast(real3(va)));
+            involved = involved && !(approaching && waits);
+        }
         impact = found.impact;
         placed = found.placed;
         n = found.n;

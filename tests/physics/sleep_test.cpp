@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <deque>
+#include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "scene/random.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -88,6 +91,41 @@ TEST(Sleep, EndsWhenASphereIsHit) {
     EXPECT_GT(positionOf(after, 0).x, positionOf(before, 0).x + 0.01);
     EXPECT_GT(positionOf(after, 1).x, positionOf(before, 1).x + 0.1) << "the blow goes through the first to the second";
     EXPECT_FALSE(asleep(after, 1));
+}
+
+// Rows of sleepers in any direction and order, whose first one is hit. Within the substep of the blow, a sphere may
+// come to a neighbour that still sleeps. The neighbour must not take the momentum as a wall does. (All blows are faster
+// than the wake speed, up to which a sleeper does hold like a wall.)
+TEST(Sleep, BlowThroughSleepersKeepsMomentum) {
+    scene::Random random(5);
+    for (int k = 0; k < 40; ++k) {
+        SCOPED_TRACE(k);
+        scene::Scene scene = sleepyBox(4);
+        scene.quality.model = k % 2 == 0 ? scene::Model::Balanced : scene::Model::Fast;
+        setRestitution(scene, random.uniform(0.6, 1));
+        const double angle = random.uniform(0, 2 * std::numbers::pi);
+        const glm::dvec3 along{std::cos(angle), std::sin(angle), 0};
+        const int length = 2 + k % 3;
+        const double place = random.uniform(-0.3, 0.3);
+        const glm::dvec3 first = along * place - glm::dvec3(0, 0, 1.95);
+        for (int n = 0; n < length; ++n) scene.spheres.push_back(at(first + 0.1 * n * along));
+        scene.spheres.push_back(at(first - 0.3 * along));
+        for (std::size_t n = 1; n < static_cast<std::size_t>(length); ++n)
+            std::swap(scene.spheres[n], scene.spheres[static_cast<std::size_t>(random.uniform(0, n + 1.0))]);
+        const auto simulation = simulate(scene);
+        run(*simulation, 1.5);
+        ASSERT_EQ(sleepers(simulation->snapshot()), simulation->count());
+        const double speed = random.uniform(3, 5);
+        push(*simulation, static_cast<std::uint32_t>(length), speed * along);
+        double passed = 0;  // momentum over the mass of a sphere (m/s)
+        for (double time = 0; time < 0.2 / speed + 0.1; time += scene.step) {
+            run(*simulation, scene.step);
+            passed = 0;
+            const sim::State state = simulation->snapshot();
+            for (std::uint32_t id = 0; id < state.count(); ++id) passed += glm::dot(velocityOf(state, id), along);
+            ASSERT_NEAR(passed, speed, 1e-3 * speed) << "after " << time << " s";
+        }
+    }
 }
 
 TEST(Sleep, EndsWhenASlowSphereArrives) {
