@@ -82,8 +82,8 @@ ANY_REAL3 velocityOfSurface(Obstacle motion, ANY_REAL3 point, ANY_REAL3 normal) 
     return result;
 }
 
-// surfaceAt() at a share of the substep.
-ANY_REAL4 movedSurfaceAt(Obstacle obstacle, Obstacle motion, uint part, ANY_REAL share, ANY_REAL3 point) {
+// Returns the place at the moment of the frames of what is at a point at a share of the substep (m).
+ANY_REAL3 broughtBack(Obstacle motion, ANY_REAL share, ANY_REAL3 point) {
     ANY_REAL3 back = turnedBy(motion, -share, fromPivot(motion, share, point));
     precise ANY_REAL px = motion.a.x + back.x;
     precise ANY_REAL py = motion.a.y + back.y;
@@ -91,8 +91,12 @@ ANY_REAL4 movedSurfaceAt(Obstacle obstacle, Obstacle motion, uint part, ANY_REAL
     back.x = px;
     back.y = py;
     back.z = pz;
-    ANY_REAL4 surface = surfaceAt(obstacle, part, back);
-    ANY_REAL3 normal = point;
+    return back;
+}
+
+// Returns what surfaceAt() found at the moment of the frames, turned to a share of the substep. `any` is any vector.
+ANY_REAL4 turnedSurface(Obstacle motion, ANY_REAL share, ANY_REAL4 surface, ANY_REAL3 any) {
+    ANY_REAL3 normal = any;
     normal.x = surface.x;
     normal.y = surface.y;
     normal.z = surface.z;

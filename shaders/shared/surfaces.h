@@ -68,8 +68,12 @@ real3 relativeTo(Obstacle obstacle, real share, real3 point, real3 v) {
 
 // Returns the surface at a share of the substep.
 real4 laterSurfaceAt(Obstacle obstacle, uint part, real share, real3 point) {
-    if (!isMoving(obstacle)) return surfaceAt(obstacle, part, point);
-    return movedSurfaceAt(obstacle, obstacles[obstacle.motion], part, share, point);
+    bool moving = isMoving(obstacle);
+    real3 place = point;
+    if (moving) place = broughtBack(obstacles[obstacle.motion], share, point);
+    real4 surface = surfaceAt(obstacle, part, place);
+    if (moving) surface = turnedSurface(obstacles[obstacle.motion], share, surface, point);
+    return surface;
 }
 
 // Sets the plane of a part of an obstacle that is curved or moves, for lanes in `close`, which may meet it in this
@@ -116,7 +120,7 @@ void visitPart(mask where, Obstacle obstacle, uint part, real4 surface, bool cur
         if (looksAhead()) v = relativeTo(obstacle, real(0.0f), point, v);
     }
     mask close = where && planeSeparation < sqrt(dot3(v, v)) * params.substep;
-    if ((curved || moving) && anyLane(close)) meetCurved(close, obstacle, part, v);
+    if (looksAhead() && (curved || moving) && anyLane(close)) meetCurved(close, obstacle, part, v);
     visitSurface(where, planeNormal, planeSeparation, planeRecession, obstacle.material, number, key);
     if (moving) setSurfaceAtRest();
 }

@@ -41,14 +41,13 @@ SURFACES = "each shape and each triangle of a mesh is found in code of its own"
 LEVELS = "with several levels of cells, the numbers of each level are held"
 LIMITS = {
     "codec_choose.comp": Limits(scratch=3072, code=72 << 10, reason="packs a block of values in an array"),
-    "finish_substep.comp": Limits(vgprs=240, sgpr_spills=1300, code=128 << 10, reason=SURFACES),
+    "finish_substep.comp": Limits(vgprs=192, sgpr_spills=24, code=56 << 10, reason=SURFACES),
     "list_build.comp": Limits(scratch=1536, reason="gathers the pairs of a group of cells in an array"),
     "solve_forces.comp": Limits(sgpr_spills=16, reason=LEVELS),
     "solve_impulses.comp": Limits(sgpr_spills=16, reason=LEVELS),
     "solve_unlisted.comp": Limits(vgprs=152, reason=LEVELS + "; runs only while lists have no room"),
-    "statistics_spheres.comp": Limits(vgprs=192, reason=SURFACES),
-    "walls_forces.comp": Limits(vgprs=208, code=50 << 10, reason=SURFACES),
-    "walls_impulses.comp": Limits(vgprs=176, code=54 << 10, reason=SURFACES),
+    "walls_forces.comp": Limits(vgprs=144, reason=SURFACES),
+    "walls_impulses.comp": Limits(vgprs=152, reason=SURFACES),
 }
 
 # A scene with every feature that a model may have.
