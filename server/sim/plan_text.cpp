@@ -15,7 +15,7 @@ struct Row {
     Pass pass{};
     std::string_view kernel;
     std::uint32_t launches = 0;
-    std::uint32_t invocations = 0;
+    std::uint32_t items = 0;  // invocations; bundles or groups of cells, if a work group has one
     std::string when;
 };
 
@@ -111,10 +111,10 @@ std::string planText(const scene::Scene& scene, const Plan& plan, std::span<cons
     text += fmt::format("\n{:<36}{:>14}{:>16}\n", "memory", "bytes", "bytes/sphere");
     for (const MemoryPart& part : memoryOf(plan, more))
         text += fmt::format("{:<36}{:>14}{:>16.1f}\n", part.name, part.bytes, perSphere(plan, part.bytes));
-    text += fmt::format("\n{:<17}{:<26}{:>9}{:>13}  {}\n", "pass", "kernel", "launches", "invocations", "when");
+    text += fmt::format("\n{:<17}{:<26}{:>9}{:>13}  {}\n", "pass", "kernel", "launches", "items", "when");
     for (const Row& row : rowsOf(plan))
-        text += fmt::format("{:<17}{:<26}{:>9}{:>13}  {}\n", nameOf(row.pass), row.kernel, row.launches,
-                            row.invocations, row.when);
+        text += fmt::format("{:<17}{:<26}{:>9}{:>13}  {}\n", nameOf(row.pass), row.kernel, row.launches, row.items,
+                            row.when);
     const SubstepCost usual = costOf(plan, false);
     const SubstepCost rebuilding = costOf(plan, true);
     text += fmt::format("\n{:<43}{:>9}{:>13}\n", "substep", "launches", "barriers");
@@ -164,7 +164,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<cons
         json["passes"].push_back({{"pass", nameOf(row.pass)},
                                   {"kernel", row.kernel},
                                   {"launches", row.launches},
-                                  {"invocations", row.invocations},
+                                  {"items", row.items},
                                   {"when", row.when}});
     const auto costJson = [&](bool rebuild) {
         const SubstepCost cost = costOf(plan, rebuild);

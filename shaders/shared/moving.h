@@ -82,7 +82,7 @@ ANY_REAL3 velocityOfSurface(Obstacle motion, ANY_REAL3 point, ANY_REAL3 normal) 
     return result;
 }
 
-// Returns the place at the moment of the frames of what is at a point at a share of the substep (m).
+// Follows a place of the obstacle from a share of the substep back to the moment of the frames (m).
 ANY_REAL3 broughtBack(Obstacle motion, ANY_REAL share, ANY_REAL3 point) {
     ANY_REAL3 back = turnedBy(motion, -share, fromPivot(motion, share, point));
     precise ANY_REAL px = motion.a.x + back.x;

@@ -77,7 +77,7 @@ real4 laterSurfaceAt(Obstacle obstacle, uint part, real share, real3 point) {
 }
 
 // Sets the plane of a part of an obstacle that is curved or moves, for lanes in `close`, which may meet it in this
-// substep: the plane that touches it where they meet it. Before, the plane is that of the surface nearest to the sphere
+// substep. It becomes the plane that touches the part where they meet. Before, it is the surface nearest to the sphere
 // now. `relative` is the velocity of the sphere relative to its material (m/s).
 void meetCurved(mask close, Obstacle obstacle, uint part, real3 relative) {
     real h = real(params.substep);

@@ -160,8 +160,8 @@ TEST(BoxAgainstReference, OneSubstepWithFrictionAgrees) {
 }
 
 // Runs both for 0.5 s from the same state, and compares averages over this time and over several boxes. During a
-// collapse, the contacts of a single box differ by 3 % (standard deviation) with the order of the pairs: by 0.8 % in the
-// mean of 32 pairs of boxes.
+// collapse, the contacts of a single box differ by 3 % (standard deviation) with the order of the pairs: by 0.8 % in
+// the mean of 32 pairs of boxes.
 void expectTheSameHalfSecond(double from) {
     Figures device;
     Figures reference;
