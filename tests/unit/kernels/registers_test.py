@@ -46,7 +46,8 @@ LIMITS = {
     "solve_forces.comp": Limits(sgpr_spills=16, reason=LEVELS),
     "solve_impulses.comp": Limits(sgpr_spills=16, reason=LEVELS),
     "solve_unlisted.comp": Limits(vgprs=152, reason=LEVELS + "; runs only while lists have no room"),
-    "walls_forces.comp": Limits(vgprs=184, reason=SURFACES),
+    "statistics_spheres.comp": Limits(vgprs=184, reason="gathers the contacts with a mesh in an array"),
+    "walls_forces.comp": Limits(vgprs=192, reason=SURFACES),
     "walls_impulses.comp": Limits(vgprs=152, reason=SURFACES),
 }
 
