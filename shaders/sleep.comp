@@ -9,7 +9,7 @@
 // away.
 //
 // A slow sphere may also be at the top of its flight. A sphere therefore counts as carried only if contacts took up at
-// least half of the pull of gravity and fields in this substep.
+// least half of the pull of gravity and attractions in this substep.
 //
 // A spin about the normal of a sphere's only contact with friction takes long to end. The longer a sphere has stayed,
 // the faster it may therefore turn. A sphere asks for new lists if it falls asleep outside the bounds or while the

@@ -53,7 +53,6 @@ void visitPair(uint a, uint b) {
     float ma = effectiveInverseMass(va);
     float mb = effectiveInverseMass(vb);
     if (ma + mb == 0.0f) return;
-    if (HAS(SLEEP) && ((isAsleep(va) && isFast(vec3(vb))) || (isAsleep(vb) && isFast(vec3(va))))) return;
     float effectiveMass = 1.0f / (ma + mb);
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
     vec3 difference = vec3(va) - vec3(vb);
@@ -78,6 +77,9 @@ void visitPair(uint a, uint b) {
             speed = approach;
         }
     }
+    if (HAS(SLEEP) && (isAsleep(va) || isAsleep(vb)) && impact && speed < -params.wakeSpeed &&
+        speed > -params.perSubstep * smallerRadius(pa, pb) * MOST_WAIT)
+        return;
     vec3 xa = vec3(pa);
     vec3 xb = vec3(pb);
     if (speed < 0.0f) {

@@ -1,7 +1,8 @@
 // Solves the contact of two spheres by the law of the model `balanced`. The includer binds `position`, `velocity`,
 // `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
-// included shared/separation.h, shared/contact_law.h, shared/wake.h and shared/contact_sums.h. It defines `readHeldTorque()`, which
-// sets `heldTorque` of the contacts that are solved. Most listed pairs touch nothing and need no torque.
+// included shared/separation.h, shared/contact_law.h, shared/wake.h and shared/contact_sums.h. It defines
+// `readHeldTorque()`, which sets `heldTorque` of the contacts that are solved. Most listed pairs touch nothing and need
+// no torque.
 
 RARE real4 contactOfMaterials(slots a, slots b) {
     uints index = materialOf(ROW(idAndMaterial, a)) * params.materials + materialOf(ROW(idAndMaterial, b));
@@ -183,20 +184,23 @@ mask solvePairs(mask where, slots a, slots b, bool remembers) {
     real4 contact = contactOfPair(a, b);
     real e = HAS(RESTITUTION) ? restitutionOf(contact) : real(0.0f);
 
+    real radius = smallerRadius(pa, pb);
     real lever = distance / reach;  // of friction, over the radius
     real time = real(0.0f);         // of an impact (s)
     real load = real(0.0f);         // at an impact, that both spheres carry along the normal (N s)
     mask impact = noLane();
     mask placed = noLane();
     mask approaching = involved && inReach && speed < target && speed < -params.gravityChange;
+    if (HAS(SLEEP)) {
+        mask waits = approaching && (isAsleep(va) || isAsleep(vb)) && speed < -params.wakeSpeed &&
+                     speed > -params.perSubstep * radius * MOST_WAIT;
+        involved = involved && !waits;
+        approaching = approaching && !waits;
+    }
     if (anyLane(approaching)) {
         Impact found =
             impactOf(approaching, held, a, b, d, squared, reach, separation, va, vb, n, before, target, lever, e);
         involved = involved && !found.missed;
-        if (HAS(SLEEP)) {
-            mask waits = (isAsleep(va) && isFast(real3(vb))) || (isAsleep(vb) && isFast(real3(va)));
-            involved = involved && !(approaching && waits);
-        }
         impact = found.impact;
         placed = found.placed;
         n = found.n;
@@ -211,7 +215,6 @@ mask solvePairs(mask where, slots a, slots b, bool remembers) {
 
     // The normal impulse that reaches the target speed, without pulling. An overlap is removed by moving the spheres.
     precise real normalImpulse = positivePart(before - mass * (speed - target));
-    real radius = smallerRadius(pa, pb);
     mask soft = isSoft(contact) && separation <= radius * SOFT_GAP && !impact;
     if (anyLane(soft))
         normalImpulse = select(soft, softImpulse(before, mass, speed, separation, radius), normalImpulse);

@@ -1,16 +1,15 @@
 // A sphere wakes a sleeping neighbour if it has moved away from its place, or if it is faster than a support under
 // load.
 
-// True if a sphere of this velocity (m/s) wakes sleepers. One that became fast in the present substep, by a blow, has not
-// woken its neighbours yet. Their contacts wait for the next substep, because a sleeper holds like a wall and would take the
-// momentum of the blow.
-ANY_MASK isFast(ANY_REAL3 v) {
-    return dot3(v, v) > params.wakeSpeed * params.wakeSpeed;
-}
+// A blow may make a sphere faster than the wake speed within a substep, too late to wake a sleeper that it meets. Now
+// the sleeper would act as a wall, and take the momentum of the blow. So the contact waits for the next substep, before
+// which the sleeper wakes. It does not wait if the spheres would come nearer by more than this in a substep, in smaller
+// radii, because they could pass each other.
+#define MOST_WAIT 0.5f
 
 // `v` and `rest` are the sphere's rows of `velocity` and `restReference`.
 bool canWake(vec4 v, vec4 rest) {
-    return hasMovedAway(rest) || isFast(vec3(v));
+    return hasMovedAway(rest) || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
 }
 
 // A sphere wakes its neighbour up to this gap (m). The gap must exceed the distance that a sphere can move before it

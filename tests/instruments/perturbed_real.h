@@ -5,6 +5,9 @@
 //   product                 up to 1 ulp, only if it is rounded: as if it was contracted with an addition. Products are
 //                           commutative. `precise` forbids this on a GPU, but not here.
 //   every result            0 in the place of a denormal number
+//
+// Errors do not depend on signs: a (-b) is -(a b), as on a GPU. The two sides of an edge depend on it
+// (mesh_surfaces.h).
 #pragma once
 
 #include <algorithm>
@@ -78,11 +81,14 @@ class Perturbed {
         // Exact in double precision.
         if (static_cast<double>(a.value_) * static_cast<double>(b.value_) == static_cast<double>(rounded))
             return withoutDenormals(rounded);
-        return moved(rounded, std::min(a.value_, b.value_), std::max(a.value_, b.value_), Operation::Product,
+        const float first = std::fabs(a.value_);
+        const float second = std::fabs(b.value_);
+        return moved(rounded, std::min(first, second), std::max(first, second), Operation::Product,
                      instruments::perturbation.products);
     }
     friend Perturbed operator/(Perturbed a, Perturbed b) {
-        return moved(a.value_ / b.value_, a.value_, b.value_, Operation::Division, instruments::perturbation.divisions);
+        return moved(a.value_ / b.value_, std::fabs(a.value_), std::fabs(b.value_), Operation::Division,
+                     instruments::perturbation.divisions);
     }
     friend Perturbed sqrt(Perturbed a) {
         return moved(std::sqrt(a.value_), a.value_, 0, Operation::Root, instruments::perturbation.divisions);

@@ -40,6 +40,8 @@ TEST_F(PerturbedReal, ErrsByItsLimitsAndNoFurther) {
         ++ofRoots[ulpsBetween(std::sqrt(a), sqrt(Perturbed(a)))];
         EXPECT_EQ(static_cast<float>(Perturbed(a) + b), a + b);
         EXPECT_EQ(static_cast<float>(Perturbed(a) * b), static_cast<float>(Perturbed(b) * a));
+        EXPECT_EQ(static_cast<float>(Perturbed(-a) * b), -static_cast<float>(Perturbed(b) * a));
+        EXPECT_EQ(static_cast<float>(Perturbed(-a) / b), -static_cast<float>(Perturbed(a) / b));
     }
     for (const auto* const found : {&ofQuotients, &ofRoots}) {
         ASSERT_EQ(found->size(), 5U);

@@ -135,7 +135,7 @@ void compareOneSubstep(Agreement& agreement, const scene::Scene& scene) {
 void expectToAgree(const Agreement& agreement) {
     EXPECT_EQ(agreement.positions, 240'000U);
     EXPECT_GT(agreement.touching, 240'000U) << "pairs in all";
-    const unsigned most = 24 * support::errorOfDivisions();
+    const unsigned most = 24 * support::errorOfDivisions();  // up to 39 are seen with perturbed arithmetic
     EXPECT_LE(agreement.apart, most) << "of 240,000 positions";
     EXPECT_LE(agreement.faster, most) << "of 240,000 velocities differ by more than 1 mm/s";
     testing::Test::RecordProperty("distance", std::to_string(agreement.distance * 1e9) + "e-9");

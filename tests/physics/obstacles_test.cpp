@@ -269,10 +269,10 @@ TEST_P(Obstacles, SphereStaysInAHoleAndInATip) {
             if (tenth > tenths / 10) drift = std::max(drift, glm::distance(now, settled));
         }
     }
-    const double most = (soft ? 0.05 : 5e-3) * radius;
-    EXPECT_LT(farthest, most);
-    // By larger errors of rounding, a sphere in a round hole slips now and then within the overlap that contacts keep.
-    EXPECT_LT(drift, support::errorOfDivisions() == 1 ? 1e-4 * radius : most);
+    EXPECT_LT(farthest, (soft ? 0.05 : 5e-3) * radius);
+    // By larger errors of rounding, a sphere in a round hole slips now and then by a few times the overlap that
+    // contacts keep (0.001 radii).
+    EXPECT_LT(drift, (soft || support::errorOfDivisions() == 1 ? 1e-4 : 5e-3) * radius);
     RecordProperty("farthest", std::to_string(farthest * 1e9) + "e-9 m");
     RecordProperty("drift", std::to_string(drift * 1e9) + "e-9 m");
 }

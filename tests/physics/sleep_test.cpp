@@ -117,14 +117,29 @@ TEST(Sleep, BlowThroughSleepersKeepsMomentum) {
         ASSERT_EQ(sleepers(simulation->snapshot()), simulation->count());
         const double speed = random.uniform(3, 5);
         push(*simulation, static_cast<std::uint32_t>(length), speed * along);
-        double passed = 0;  // momentum over the mass of a sphere (m/s)
+        const auto placeAlong = [&](const sim::State& state, std::uint32_t id) {
+            return glm::dot(positionOf(state, id), along);
+        };
+        const sim::State before = simulation->snapshot();
         for (double time = 0; time < 0.2 / speed + 0.1; time += scene.step) {
             run(*simulation, scene.step);
-            passed = 0;
+            double momentum = 0;  // over the mass of a sphere (m/s)
+            double energy = 0;    // twice the energy over that mass (m^2/s^2)
             const sim::State state = simulation->snapshot();
-            for (std::uint32_t id = 0; id < state.count(); ++id) passed += glm::dot(velocityOf(state, id), along);
-            ASSERT_NEAR(passed, speed, 1e-3 * speed) << "after " << time << " s";
+            for (std::uint32_t id = 0; id < state.count(); ++id) {
+                momentum += glm::dot(velocityOf(state, id), along);
+                energy += glm::dot(velocityOf(state, id), velocityOf(state, id));
+                for (std::uint32_t other = 0; other < id; ++other)
+                    ASSERT_EQ(placeAlong(state, id) < placeAlong(state, other),
+                              placeAlong(before, id) < placeAlong(before, other))
+                        << "spheres have passed each other";
+            }
+            ASSERT_NEAR(momentum, speed, 1e-3 * speed) << "after " << time << " s";
+            ASSERT_LE(energy, 1.001 * speed * speed);
         }
+        const sim::State after = simulation->snapshot();
+        for (std::uint32_t id = 0; id < after.count(); ++id)
+            EXPECT_GT(placeAlong(after, id), placeAlong(before, id)) << "the blow has not reached sphere " << id;
     }
 }
 

@@ -15,8 +15,8 @@ inline std::string testDevice() {
     return named == nullptr ? "software" : named;
 }
 
-// The largest error of a division or a square root, over the error of a processor (0.5 ulp). OpenGL allows GPUs 2 ulp,
-// which perturbed arithmetic has, too.
+// The largest error of a division, over the error of a processor (0.5 ulp). GLSL allows GPUs 2.5 ulp, and perturbed
+// arithmetic has 2 ulp.
 inline unsigned errorOfDivisions() {
     const bool exact = testDevice().starts_with("cpu") || testDevice().starts_with("software");
     return exact && std::getenv("SPHERULE_PERTURBED_SEED") == nullptr ? 1 : 4;
