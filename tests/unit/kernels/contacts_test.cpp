@@ -164,6 +164,7 @@ TEST(KernelsAsCpp, ContactAtRestHoldsTheWeight) {
         const float fall = 9.81F / 480;
         bed.parameters.gravity = vec4(-9.81F * across, 0);
         bed.parameters.gravityChange = fall;
+        bed.parameters.wakeSpeed = 3 * fall;  // what comes faster would wait for the sleeper to wake
         bed.velocity[bed.slotOf(1)].w = -1.0F / 3;
         for (int substep = 0; substep < 200; ++substep) bed.substep();
         const vec3 still = bed.at(0);
