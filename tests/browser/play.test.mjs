@@ -275,7 +275,7 @@ test("an incomplete recording is marked, and no element covers another one", asy
 test("the record button records the simulation to a readable file", async () => {
   const server = await serve("cradle", { folder: suite.folder });
   const live = await open(suite.browser, server.url, { size: [1280, 900] });
-  assert.equal(await live.getAttribute(".timeline", "class"), "timeline of-simulation");
+  await live.waitForSelector(".timeline.of-simulation");
   await live.click(control("record"));
   await when(live, () => {
     const { active, duration, bytes } = spherule.session.recording;
