@@ -124,6 +124,10 @@ class Device {
     // Waits for all earlier launches.
     virtual void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) = 0;
     virtual void fill(Buffer& buffer, std::uint32_t value) = 0;
+    // Copies from one buffer to another of the same words (see createBuffer()), without the host. Does not wait. Both
+    // offsets (bytes) must be at the same place in the pattern of words.
+    virtual void copy(const Buffer& from, std::size_t fromOffset, std::size_t bytes, Buffer& to,
+                      std::size_t toOffset) = 0;
 
     // Every launch sees the writes of all earlier launches. The program ends if the launch lacks a buffer that the
     // kernel declares, even an unused one, because the launch could compute wrong results.
@@ -135,7 +139,9 @@ class Device {
     virtual std::unique_ptr<WordQueue> createWordQueue() = 0;
 
     // Add the device time between beginTimer() and endTimer() to `slot`. takeTimes() returns the time (s) per slot and
-    // resets all slots. Only takeTimes() waits for the device. Timers do not nest.
+    // resets all slots. Only takeTimes() waits for the device. Timers do not nest. On a GPU a timer takes about as long
+    // as a launch, so they can be turned off, while none runs.
+    virtual void useTimers(bool use) = 0;
     virtual void beginTimer(unsigned slot) = 0;
     virtual void endTimer() = 0;
     virtual std::vector<double> takeTimes() = 0;

@@ -73,8 +73,8 @@ std::string Metrics::text(const ServerStatus& status, const net::Counters& net) 
     to.gauge("spherule_list_rebuilds", "Rebuilds of the pair lists since the scene last changed", status.rebuilds);
     to.counter("spherule_states_produced_total", "State frames produced", static_cast<double>(status.framesProduced));
     for (std::size_t pass = 0; pass < status.passSeconds.size(); ++pass)
-        to.counter("spherule_pass_seconds_total", "Device time per pass", status.passSeconds[pass],
-                   {{"pass", std::string(sim::nameOf(static_cast<sim::Pass>(pass)))}});
+        to.counter("spherule_pass_seconds_total", "Device time per pass, while a viewer watches or metrics are read",
+                   status.passSeconds[pass], {{"pass", std::string(sim::nameOf(static_cast<sim::Pass>(pass)))}});
 
     to.gauge("spherule_recording_active", "1 while a recording is made", status.recording.active() ? 1 : 0);
     to.gauge("spherule_recording_bytes", "Size of that recording, or of the last",

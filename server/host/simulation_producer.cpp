@@ -330,7 +330,11 @@ Result<void> SimulationProducer::report() {
     for (std::size_t pass = 0; pass < times.size(); ++pass) passSeconds_[pass] += times[pass];
     // Figures are measured only between two steps.
     reportMissed_ = host_.simulation().midStep();
-    if (!reportMissed_ && (watched_ || board_.readWithin(measureAfterRead))) {
+    const bool measures = watched_ || board_.readWithin(measureAfterRead);
+    host_.device().useTimers(measures);
+    const bool timed = std::exchange(timed_, measures);  // since the last report
+    if (!timed) passSeconds_.clear();
+    if (!reportMissed_ && measures) {
         sampleDiagnostics(std::exchange(passSeconds_, {}));
     } else if (!reportMissed_) {
         passSeconds_.clear();

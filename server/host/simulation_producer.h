@@ -79,6 +79,7 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     std::uint64_t population_ = 0;                // its version at the end of the last step
     std::string settings_;                        // serialized, as sent last
     bool watched_ = false;
+    bool timed_ = false;               // passes are timed
     std::vector<double> passSeconds_;  // device time (s) since the last sampleDiagnostics(), by sim::Pass
     bool reportMissed_ = false;        // a report was due in the middle of a step
     double stepMs_ = 0;                // wall time of the step under way (ms)

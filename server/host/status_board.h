@@ -32,7 +32,7 @@ struct ServerStatus {
     v1::Recording recording;                     // the present recording, or the last one
     std::vector<std::string> recordings;         // files in the folder of recordings that this server has begun
     std::uint64_t recordingFramesLost = 0;
-    std::vector<double> passSeconds;  // device time since the start (s), by sim::Pass
+    std::vector<double> passSeconds;  // device time (s) while passes were timed, by sim::Pass
 
     [[nodiscard]] bool isFinal() const { return state == "draining" || state == "failed"; }
     void setState(const char* next) {

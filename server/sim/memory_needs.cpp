@@ -60,11 +60,10 @@ std::vector<MemoryPart> MemoryNeeds::parts() const {
 
 MemoryNeeds memoryNeedsOf(const Plan& plan) {
     const std::uint64_t n = plan.spheres;
-    MemoryNeeds need{.arrays = plan.bytes(),
-                     .host = {{"host: scene", n * sizeof(scene::Sphere)},
-                              {"host: scene at the start", n * sizeof(scene::Sphere)},
-                              {"host: last good state", n * slotBytes(plan)}},
-                     .temporary = n * snapshotBytes(plan)};
+    MemoryNeeds need{
+        .arrays = plan.bytes(),
+        .host = {{"host: scene", n * sizeof(scene::Sphere)}, {"host: scene at the start", n * sizeof(scene::Sphere)}},
+        .temporary = n * snapshotBytes(plan)};
     if (plan.meshes) need.host.push_back({"host: meshes", plan.meshes->bytes()});
     if (plan.features.has(Feature::Radii)) need.host.push_back({"host: radii for viewers", n * radiiBytes});
     return need;

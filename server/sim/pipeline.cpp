@@ -25,7 +25,7 @@ static_assert(scene::maxMaterials <= 1U << (32 - Pipeline::idBits));
 // Returns groups x, y, z for a row of the launch table, as the kernels index them, and `count`.
 glm::uvec4 argumentsOf(std::uint32_t row, std::uint32_t count) {
     const bool countsGroups = row == LAUNCH_GROUPS || row == LAUNCH_BUNDLES || row == LAUNCH_COLOUR ||
-                              row == LAUNCH_LEVEL || row == LAUNCH_LOST_COLOUR;
+                              row == LAUNCH_LEVEL || row == LAUNCH_CELL_RUNS || row == LAUNCH_LOST_COLOUR;
     const std::uint32_t groups = countsGroups ? count : (count + workgroup - 1) / workgroup;
     const std::uint32_t x = std::min(groups, maxGroupsPerAxis);
     return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, count};
@@ -244,16 +244,26 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
 }
 
 SlotState Pipeline::download() {
+    return slotState(plan_.spheres, [](Array array) { return array; });
+}
+
+SlotState Pipeline::keptState(std::uint32_t spheres) {
+    return slotState(spheres, keptOf);
+}
+
+// `of`: the array to read in the place of each array of the state.
+SlotState Pipeline::slotState(std::uint32_t spheres, Array (*of)(Array)) {
     SlotState slots;
-    download(slots);
+    forEachColumn([&](auto column, Array array) { readInto(slots.*column, of(array), spheres); });
+    readInto(slots.idAndMaterial, of(Array::IdAndMaterial), spheres);
+    readInto(slots.images, of(Array::Images));
+    slots.periods = plan_.periods;
     return slots;
 }
 
-void Pipeline::download(SlotState& slots) {
-    forEachColumn([&](auto column, Array array) { readInto(slots.*column, array, plan_.spheres); });
-    readInto(slots.idAndMaterial, Array::IdAndMaterial, plan_.spheres);
-    readInto(slots.images, Array::Images);
-    slots.periods = plan_.periods;
+void Pipeline::keepState() {
+    for (const auto& [array, kept] : keptArrays)
+        if (plan_.has(array)) device_.copy(buffer(array), 0, plan_.bytesOf(array), buffer(kept), 0);
 }
 
 void Pipeline::wakeAll() {
@@ -261,18 +271,6 @@ void Pipeline::wakeAll() {
     auto velocity = read<glm::vec4>(Array::Velocity);
     for (glm::vec4& one : velocity) one.w = std::abs(one.w);
     write<glm::vec4>(Array::Velocity, velocity);
-}
-
-// Copies in parts: a copy of the whole would need as much host memory again.
-void Pipeline::copy(compute::Buffer& from, std::size_t begin, std::size_t bytes, compute::Buffer& to,
-                    std::size_t toBegin) {
-    constexpr std::size_t most = 16U << 20U;
-    std::vector<std::byte> part;
-    for (std::size_t done = 0; done < bytes; done += part.size()) {
-        part.resize(std::min(most, bytes - done));
-        device_.download(from, begin + done, part);
-        device_.upload(to, toBegin + done, part);
-    }
 }
 
 Result<void> Pipeline::growPairs(std::uint32_t capacity) {
@@ -291,7 +289,7 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
         const std::size_t halves = typeOf(spec.array).extent == Extent::PairTwice ? 2 : 1;
         const std::size_t half = spec.bytes / halves;
         for (std::size_t k = 0; k < halves; ++k)
-            copy(buffer(spec.array), k * half, half, **made, k * (*made)->bytes() / halves);
+            device_.copy(buffer(spec.array), k * half, half, **made, k * (*made)->bytes() / halves);
         grown.push_back(std::move(*made));
     }
     auto next = grown.begin();

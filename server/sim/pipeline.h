@@ -54,7 +54,10 @@ class Pipeline {
     void upload(const State& state, std::span<const std::uint8_t> materials,
                 std::span<const std::uint32_t> handles = {});
     [[nodiscard]] SlotState download();  // waits for the device
-    void download(SlotState& slots);     // the same, reusing the memory of `slots`
+    // Keeps a copy of the state on the device.
+    void keepState();
+    // Returns the state that was kept last, when there were `spheres` spheres. Waits for the device.
+    [[nodiscard]] SlotState keptState(std::uint32_t spheres);
 
     // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. The
     // lists are rebuilt in the next substep. Call setParameters() next.
@@ -150,8 +153,8 @@ class Pipeline {
     Result<void> makeArray(const ArraySpec& spec);
     Result<void> makeKernel(std::string_view file);
     void writeDispatchSizes();
+    SlotState slotState(std::uint32_t spheres, Array (*of)(Array));
     void writeColumns(const State& state, std::size_t first = 0);
-    void copy(compute::Buffer& from, std::size_t begin, std::size_t bytes, compute::Buffer& to, std::size_t toBegin);
     std::uint32_t slotOf(std::uint32_t handle);
     void setSpheres(std::uint32_t count);
     void takeWallMemory(Pipeline& before, const NewKey& newKey);

@@ -29,7 +29,7 @@ void Pipeline::takeFrom(Pipeline& before, const NewKey& newKey) {
     for (const ArraySpec& spec : plan_.arrays) {
         if (dependsOnObstacles(spec.array) || !before.plan_.has(spec.array)) continue;
         const std::size_t bytes = std::min(spec.bytes, before.plan_.bytesOf(spec.array));
-        copy(before.buffer(spec.array), 0, bytes, buffer(spec.array), 0);
+        device_.copy(before.buffer(spec.array), 0, bytes, buffer(spec.array), 0);
     }
     takeWallMemory(before, newKey);
     substepLength_ = before.substepLength_;

@@ -27,9 +27,10 @@ Result<void> Pipeline::growSpheres(std::uint32_t room, const scene::Scene& scene
         if (bytes <= spec.bytes) continue;
         auto made = device_.createBuffer(nameOf(spec.array), bytes, typeOf(spec.array).words);
         if (!made) return tl::unexpected(made.error());
-        copy(buffer(spec.array), 0, spec.bytes, **made, 0);
+        device_.copy(buffer(spec.array), 0, spec.bytes, **made, 0);
         spec.bytes = bytes;
         setBuffer(spec.array, std::move(*made));
+        device_.finish();  // the driver frees the array before the next one is made
     }
     plan_.room = room;
     return {};

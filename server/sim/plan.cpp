@@ -134,6 +134,7 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
     rows[LAUNCH_BUNDLES] = plan.grid.bundles();
     rows[LAUNCH_COLOUR] = colour;
     rows[LAUNCH_LEVEL] = 8 * colour;
+    rows[LAUNCH_CELL_RUNS] = blocksOf(plan.grid.all(), ORDERED_CELLS);
     rows[LAUNCH_LOST_SPHERES] = plan.spheres;
     rows[LAUNCH_LOST_COLOUR] = colour;
     rows[LAUNCH_UNLISTED] = colour;

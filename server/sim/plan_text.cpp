@@ -6,6 +6,7 @@
 #include "sim/layout.h"
 #include "sim/memory_needs.h"
 #include "sim/plan.h"
+#include "sim/traffic.h"
 
 namespace spherule::sim {
 
@@ -15,7 +16,7 @@ struct Row {
     Pass pass{};
     std::string_view kernel;
     std::uint32_t launches = 0;
-    std::uint32_t items = 0;  // invocations; bundles or groups of cells, if a work group has one
+    std::uint32_t items = 0;  // invocations; bundles, or groups or runs of cells, if a work group has one
     std::string when;
 };
 
@@ -77,6 +78,29 @@ std::string contactText(const scene::Scene& scene) {
                        model, time.contact, time.speed, time.contact / substep, substep);
 }
 
+// One line per kernel.
+std::string trafficText(const Plan& plan) {
+    std::string text =
+        fmt::format("\n{:<43}{:>9}{:>13}\n", "bytes per sphere, in a bed without sleep", "read", "written");
+    double read = 0;
+    double written = 0;
+    const std::vector<Traffic> rows = trafficOf(plan, bedMeansOf(plan.model));
+    if (rows.empty()) return {};
+    for (auto row = rows.begin(); row != rows.end();) {
+        const std::string_view kernel = row->kernel;
+        double readHere = 0;
+        double writtenHere = 0;
+        for (; row != rows.end() && row->kernel == kernel; ++row) {
+            readHere += row->read;
+            writtenHere += row->written;
+        }
+        text += fmt::format("{:<43}{:>9.0f}{:>13.0f}\n", kernel, readHere, writtenHere);
+        read += readHere;
+        written += writtenHere;
+    }
+    return text + fmt::format("{:<43}{:>9.0f}{:>13.0f}\n", "all", read, written);
+}
+
 double perSphere(const Plan& plan, std::uint64_t bytes) {
     return plan.spheres == 0 ? 0.0 : static_cast<double>(bytes) / plan.spheres;
 }
@@ -119,10 +143,12 @@ std::string planText(const scene::Scene& scene, const Plan& plan, std::span<cons
     const SubstepCost rebuilding = costOf(plan, true);
     text += fmt::format("\n{:<43}{:>9}{:>13}\n", "substep", "launches", "barriers");
     text += fmt::format("{:<43}{:>9}{:>13}\n", "without a rebuild of the lists", usual.launches, usual.barriers);
-    if (mostBatches(plan) == 0) return text;
-    text +=
-        fmt::format("{:<43}{:>9}{:>13}\n", "in which lists may be rebuilt", rebuilding.launches, rebuilding.barriers);
-    return text + fmt::format("{:<43}{:>9}\n", "batches of pairs, one after another, at most", mostBatches(plan));
+    if (mostBatches(plan) > 0) {
+        text += fmt::format("{:<43}{:>9}{:>13}\n", "in which lists may be rebuilt", rebuilding.launches,
+                            rebuilding.barriers);
+        text += fmt::format("{:<43}{:>9}\n", "batches of pairs, one after another, at most", mostBatches(plan));
+    }
+    return text + trafficText(plan);
 }
 
 std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<const MemoryPart> more) {
@@ -173,6 +199,10 @@ std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<cons
     json["substep"] = costJson(false);
     json["rebuildSubstep"] = costJson(true);
     json["mostBatches"] = mostBatches(plan);
+    json["traffic"] = nlohmann::ordered_json::array();
+    for (const Traffic& row : trafficOf(plan, bedMeansOf(plan.model)))
+        json["traffic"].push_back(
+            {{"kernel", row.kernel}, {"array", nameOf(row.array)}, {"read", row.read}, {"written", row.written}});
     return json.dump();
 }
 

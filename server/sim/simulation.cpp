@@ -258,7 +258,7 @@ Result<void> Simulation::checkStep() {
 }
 
 void Simulation::saveLastFinite() {
-    pipeline_->download(lastFinite_);
+    pipeline_->keepState();
     lastFiniteStep_ = steps_;
     lastFiniteDrives_ = drives_->states(scene_);
     lastFiniteSpheres_.reset();
@@ -274,7 +274,7 @@ std::string Simulation::divergence() const {
     const std::uint64_t id = population_.idAt(now);
     const auto rank = before.rankOf(id);
     if (!rank) return fmt::format("sphere {} has no finite position any more at step {}", id, steps_);
-    const State lastFinite = inIdOrder(lastFinite_, before);
+    const State lastFinite = inIdOrder(pipeline_->keptState(before.count()), before);
     const glm::dvec3 x = positionOf(lastFinite, *rank) + scene_.bounds.centre();
     return fmt::format(
         "sphere {} has no finite position any more at step {}; at step {} it was at {:.4g} {:.4g} {:.4g} m "
@@ -293,7 +293,8 @@ void Simulation::rollback() {
         lastFiniteSpheres_.reset();
         ++generation_;
     }
-    upload(inIdOrder(lastFinite_, population_));
+    const State kept = inIdOrder(pipeline_->keptState(count()), population_);
+    upload(kept);
     steps_ = lastFiniteStep_;
     drives_->restore(scene_, lastFiniteDrives_, time());
     counters_ = {};

@@ -98,7 +98,7 @@ class Simulation {
     // Returns the notices for users since the last call, each a sentence.
     [[nodiscard]] std::vector<std::string> takeNotices() { return std::exchange(notices_, {}); }
 
-    // Returns the device time (s) per Pass since the last call. Waits for the device.
+    // Returns the device time (s) per Pass since the last call, while timers were used. Waits for the device.
     [[nodiscard]] std::vector<double> passSeconds() { return device_.takeTimes(); }
 
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
@@ -209,8 +209,7 @@ class Simulation {
     bool tooFast_ = false;           // notice was given that the most substeps are too few
     std::vector<PullSpring> pulls_;
     std::vector<std::string> notices_;
-    SlotState lastFinite_;  // the last state that was found finite
-    std::uint64_t lastFiniteStep_ = 0;
+    std::uint64_t lastFiniteStep_ = 0;  // of the last state that was found finite, which the pipeline keeps
     std::vector<scene::Drive> lastFiniteDrives_;
     // The spheres of that state, kept when spheres are added or removed after it.
     struct Spheres {

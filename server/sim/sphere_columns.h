@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -22,6 +24,20 @@ constexpr void forEachColumn(Visit visit) {
 #define SPHERE_COLUMN(member, Type, ArrayName, value) visit(&SphereColumns::member, Array::ArrayName);
 #include "sim/sphere_columns.def"
 #undef SPHERE_COLUMN
+}
+
+// The arrays that hold the state of the spheres, each with the array that keeps a copy of it on the device.
+constexpr std::array keptArrays{
+#define SPHERE_COLUMN(member, Type, ArrayName, value) std::pair{Array::ArrayName, Array::Kept##ArrayName},
+#include "sim/sphere_columns.def"
+#undef SPHERE_COLUMN
+    std::pair{Array::IdAndMaterial, Array::KeptIdAndMaterial}, std::pair{Array::Images, Array::KeptImages}};
+
+// Returns the array that keeps a copy of `array`.
+constexpr Array keptOf(Array array) {
+    for (const auto& [from, kept] : keptArrays)
+        if (from == array) return kept;
+    return Array::Count;
 }
 
 }  // namespace spherule::sim

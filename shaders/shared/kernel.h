@@ -48,7 +48,7 @@
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 //
-// A bundle of pairs, or a group of cells, is the work of a work group on a GPU, and of one thread in C++.
+// A bundle of pairs, a group of cells or a run of cells is the work of a work group on a GPU, and of one thread in C++.
 //
 //   BUNDLE_KERNEL(count) { ... }  Defines the body of all threads of a work group; `invocation` is the group's number.
 //                               It is launched with a number of work groups, as PAIR_KERNEL is.

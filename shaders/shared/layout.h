@@ -193,8 +193,8 @@ struct SphereStatistics {
 // should hit.
 #define SAFE_MOTION 0.5f
 
-// Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, count). Kernels over bundles
-// and over groups of cells have a work group for each.
+// Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, count). Kernels over bundles,
+// over groups of cells and over runs of cells have a work group for each.
 #define LAUNCH_SPHERES 0u
 #define LAUNCH_CELLS 1u
 #define LAUNCH_BLOCKS 2u
@@ -206,10 +206,13 @@ struct SphereStatistics {
 #define LAUNCH_BUNDLES 8u       // bundles
 #define LAUNCH_COLOUR 9u        // bundles of one colour of the largest level
 #define LAUNCH_LEVEL 10u        // bundles of the largest level
-#define LAUNCH_LOST_SPHERES 11u // this row and the next: only if a contact is remembered that the new lists lack
-#define LAUNCH_LOST_COLOUR 12u  // bundles of one colour
-#define LAUNCH_UNLISTED 13u     // in each substep while there are no lists: an invocation for each bundle of a colour
-#define LAUNCH_ROWS 14u
+#define LAUNCH_CELL_RUNS 11u    // runs of ORDERED_CELLS cells
+#define LAUNCH_LOST_SPHERES 12u // this row and the next: only if a contact is remembered that the new lists lack
+#define LAUNCH_LOST_COLOUR 13u  // bundles of one colour
+#define LAUNCH_UNLISTED 14u     // in each substep while there are no lists: an invocation for each bundle of a colour
+#define LAUNCH_ROWS 15u
+
+#define ORDERED_CELLS 64u       // cells whose spheres a work group puts in order
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
 #define UNLISTED 0xffffffffu    // pair count of a bundle without a list

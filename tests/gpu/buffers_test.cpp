@@ -37,6 +37,14 @@ TEST_F(DeviceTest, UploadAndDownloadAccessOnlyTheirRange) {
     EXPECT_EQ(last, 4U);
 }
 
+TEST_F(DeviceTest, CopyMovesOnlyItsRangeAfterEarlierWritesAndBeforeLaterOnes) {
+    const auto from = buffer(std::vector<std::uint32_t>{1, 2, 3, 4});
+    const auto to = buffer(std::vector<std::uint32_t>{5, 6, 7, 8});
+    device_->copy(*from, 4, 8, *to, 8);
+    device_->fill(*from, 9);
+    EXPECT_EQ(contents(*to), (std::vector<std::uint32_t>{5, 6, 2, 3}));
+}
+
 TEST_F(DeviceTest, DownloadLargerThanOneChunkIsComplete) {
     std::vector<std::uint32_t> values(std::size_t{10} << 20U);
     std::iota(values.begin(), values.end(), 0U);

@@ -38,6 +38,9 @@ TEST_F(DeviceDeathTest, AccessBeyondABufferEndsTheProgram) {
     EXPECT_DEATH(device_->upload(*values_, 8, bytes), "upload of 12 bytes at 8 in a buffer of 16");
     EXPECT_DEATH(device_->download(*values_, 20, bytes), "download of 12 bytes at 20");
     EXPECT_DEATH(device_->startReadBack(*values_, 17), "read back of 17 bytes");
+    const auto other = buffer(32);
+    EXPECT_DEATH(device_->copy(*other, 0, 20, *values_, 0), "copy of 20 bytes at 0 in a buffer of 16");
+    EXPECT_DEATH(device_->copy(*values_, 8, 12, *other, 0), "copy of 12 bytes at 8 in a buffer of 16");
 }
 
 TEST_F(DeviceDeathTest, NestedTimersEndTheProgram) {

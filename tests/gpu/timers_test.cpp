@@ -33,6 +33,17 @@ TEST_F(DeviceTest, TimesArePerSlotAndResetWhenTaken) {
     EXPECT_TRUE(device_->takeTimes().empty());
 }
 
+TEST_F(DeviceTest, TimersThatAreOffMeasureNothing) {
+    device_->useTimers(false);
+    device_->beginTimer(2);
+    device_->endTimer();
+    EXPECT_TRUE(device_->takeTimes().empty());
+    device_->useTimers(true);
+    device_->beginTimer(2);
+    device_->endTimer();
+    EXPECT_EQ(device_->takeTimes().size(), 3U);
+}
+
 TEST_F(DeviceTest, TimeIncludesTheLaunchesBetweenBeginAndEnd) {
     const auto busy = kernel(busyLoop);
     const auto values = buffer(65536 * 4);

@@ -185,6 +185,9 @@ check_serve() {
 record_for() {
     local url=$1 name steps=() pack=() all=() k
     spherule ctl "ws://$url/ws" record || return 1
+    # The server measures passes from the first request for metrics on, and reports once a second.
+    metric "$url" spherule_real_time_factor >/dev/null || return 1
+    sleep 2
     for k in 1 2; do
         steps+=("$(spherule ctl "ws://$url/ws" query | sed -n 's/.*"step": "\([0-9]*\)".*/\1/p')") || return 1
         pack+=("$(metric "$url" 'spherule_pass_seconds_total{pass="pack"}')") || return 1

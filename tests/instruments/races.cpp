@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include <pthread.h>
 #include <spdlog/fmt/fmt.h>
@@ -57,6 +58,8 @@ struct Word {
     std::uint32_t launch = 0;
     std::uint32_t group = 0;     // of `threads`: a Place::user
     std::uint32_t interval = 0;  // of `threads`
+    bool fetched = false;        // read before it was written
+    bool written = false;
     Users<std::uint32_t> groups;
     Users<std::uint8_t> threads;
 };
@@ -83,6 +86,9 @@ struct Detector {
     AddressRange ofInvocations = privateMemory();
     AddressRange ofGroups = sharedMemory();
     std::map<std::tuple<std::string, std::string, std::string>, Race> races;
+    std::map<std::pair<const Entry*, std::size_t>, Traffic> traffic;  // by kernel and slot
+    std::array<Traffic*, compute::maxKernelBuffers> ofLaunch{};       // of the launch under way, by slot
+    std::uint32_t launch = 0;                                         // that launch
     std::uint64_t accesses = 0;
 
     Word& wordAt(std::uintptr_t address) {
@@ -162,6 +168,26 @@ void noteInGroup(Word& word, std::uintptr_t address, Access access, bool anew) {
     if (before < 4) report(address, kindOf(before, access), true, other, now.thread);
 }
 
+constexpr std::size_t sectorWords = 8;
+
+// Notes that the launch needs the content of a word, or changes it, for the first time.
+void noteTraffic(Word& word, std::uintptr_t address, bool write) {
+    const std::size_t slot = slotOf(address);
+    if (slot == noSlot) return;
+    const std::uint32_t launch = place().launch;
+    const Word* const sector = &word - address / 4 % sectorWords;
+    const bool moved = std::any_of(sector, sector + sectorWords, [&](const Word& other) {
+        return other.launch == launch && (write ? other.written : other.fetched);
+    });
+    (write ? word.written : word.fetched) = true;
+    if (std::exchange(detector().launch, launch) != launch) detector().ofLaunch.fill(nullptr);
+    Traffic*& known = detector().ofLaunch[slot];
+    if (known == nullptr) known = &detector().traffic[{&kernelAtWork(), slot}];
+    Traffic& traffic = *known;
+    (write ? traffic.bytesWritten : traffic.bytesRead) += 4;
+    if (!moved) (write ? traffic.sectorBytesWritten : traffic.sectorBytesRead) += 4 * sectorWords;
+}
+
 void noteWord(std::uintptr_t address, Access access) {
     const Place& now = place();
     Word& word = detector().wordAt(address);
@@ -173,8 +199,14 @@ void noteWord(std::uintptr_t address, Access access) {
         noteInGroup(word, address, access, anew);
         return;
     }
-    if (anew) word.groups = {};
+    if (anew) {
+        word.groups = {};
+        word.fetched = word.written = false;
+    }
     word.launch = now.launch;
+    const bool writes = access == Access::Write || access == Access::AtomicWrite;
+    if (access != Access::Write && !word.fetched && !word.written) noteTraffic(word, address, false);
+    if (writes && !word.written) noteTraffic(word, address, true);
     std::uint32_t other = 0;
     const unsigned before = word.groups.note(access, now.user, other);
     if (before < 4) report(address, kindOf(before, access), false, numberOf(other), numberOf(now.user));
@@ -204,6 +236,18 @@ std::vector<Race> takeRaces() {
     std::vector<Race> found;
     for (auto& [key, race] : detector().races) found.push_back(std::move(race));
     detector().races.clear();
+    return found;
+}
+
+std::vector<Traffic> takeTraffic() {
+    std::vector<Traffic> found;
+    for (auto& [key, traffic] : detector().traffic) {
+        traffic.kernel = key.first->name;
+        traffic.buffer = key.first->buffers[key.second].name;
+        found.push_back(std::move(traffic));
+    }
+    detector().traffic.clear();
+    detector().ofLaunch.fill(nullptr);
     return found;
 }
 

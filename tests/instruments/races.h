@@ -30,6 +30,20 @@ struct Race {
 // that none of its threads has written.
 std::vector<Race> takeRaces();
 
+// The bytes that the launches of a kernel move between a buffer and the memory. A cache holds everything that one
+// launch accesses, but nothing from one launch to the next. Sectors are the parts of 32 bytes that memory moves.
+struct Traffic {
+    std::string kernel;
+    std::string buffer;
+    std::uint64_t bytesRead = 0;  // of words that a launch reads before it writes them, each once
+    std::uint64_t bytesWritten = 0;
+    std::uint64_t sectorBytesRead = 0;
+    std::uint64_t sectorBytesWritten = 0;
+};
+
+// Returns the traffic since the last call, one for each kernel and buffer.
+std::vector<Traffic> takeTraffic();
+
 // Accesses of kernels to buffers and variables of work groups since the program began.
 std::uint64_t accesses();
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/load.h"
+#include "scene/quality.h"
 #include "scene/shapes.h"
 #include "sim/plan.h"
 #include "support.h"
@@ -110,8 +112,9 @@ TEST(Plan, WithoutFrictionHasNoRotation) {
     }
 }
 
-const std::vector<Array> arraysOfEveryPlan = {Array::Position, Array::Velocity,   Array::IdAndMaterial,
-                                              Array::Counters, Array::SphereSums, Array::Inspected};
+const std::vector<Array> arraysOfEveryPlan = {Array::Position,     Array::Velocity,          Array::KeptPosition,
+                                              Array::KeptVelocity, Array::KeptIdAndMaterial, Array::IdAndMaterial,
+                                              Array::Counters,     Array::SphereSums,        Array::Inspected};
 
 TEST(Plan, WithoutContactsAndForcesOnlyMoves) {
     for (const auto& [model, passes] : passesByModel) {
@@ -230,6 +233,21 @@ TEST(Plan, FitsCellsToPeriodicAxes) {
     }
     scene.sphereContacts = false;
     EXPECT_TRUE(planOf(scene).has(Array::Images));
+}
+
+// NVIDIA's drivers show a kernel at most 2^31 - 1 bytes of a buffer. The most spheres fit, with all features, and with
+// lists that have grown once.
+TEST(Plan, KeepsArraysOfTheMostSpheresWithinABlock) {
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
+        scene::Scene scene = everything(model);
+        for (int k = 0; k < 6; ++k) scene.obstacles.push_back({scene::boxShape({{1, 1, 1}, {2, 2, 2}}), 0, ""});
+        const sim::RadiusStats radii = sim::radiusStatsOf(scene);
+        const sim::Features features = sim::featuresOf(scene);
+        const sim::Plan fresh = sim::planFor(scene, features, scene::maxSpheres, radii);
+        const sim::Plan grown = sim::planFor(scene, features, scene::maxSpheres, radii, 2 * fresh.pairCapacity);
+        for (const sim::ArraySpec& spec : grown.arrays)
+            EXPECT_LT(spec.bytes, std::uint64_t{1} << 31U) << sim::nameOf(spec.array) << " in " << scene::nameOf(model);
+    }
 }
 
 TEST(Plan, DetectsUseOfGravityAndRadii) {

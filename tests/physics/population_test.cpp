@@ -12,6 +12,7 @@
 
 #include "scene/quality.h"
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -334,6 +335,40 @@ TEST_P(SleepingPopulation, WakesASphereThatRestsOnARemovedFixedOne) {
     EXPECT_EQ(sleepers(simulation->snapshot()), 0U);
     run(*simulation, 1);
     EXPECT_NEAR(positionOf(simulation->snapshot(), 0).z, -0.45, 1e-3);
+}
+
+// The last good state is on the device, with images. It stays whole while arrays grow and obstacles change.
+TEST_P(Population, GoesBackAfterItsArraysHaveChanged) {
+    scene::Scene scene = heap(GetParam(), 128);
+    scene.bounds.periodic = {true, false, false};
+    scene.bounds.min.x = -0.6;
+    scene.bounds.max.x = 0.6;
+    for (scene::Sphere& sphere : scene.spheres) sphere.velocity = {1, 0, 0};
+    choose(scene, GetParam());
+    auto simulation = simulate(scene);
+    run(*simulation, 1);
+    const sim::State kept = simulation->snapshot();
+    ASSERT_TRUE(std::ranges::any_of(kept.images, [](const glm::ivec3& image) { return image.x != 0; }));
+    const std::uint32_t room = simulation->plan().room;
+    std::vector<glm::dvec3> places;
+    for (int k = 0; k < 100; ++k)
+        places.emplace_back(0.11 * (k % 8) - 0.39, 0.11 * (k / 8 % 8) - 0.39, 0.2 + 0.11 * (k / 64));
+    ASSERT_TRUE(simulation->apply(spawnAt(places)));
+    ASSERT_GT(simulation->plan().room, room);
+    const scene::Obstacle ceiling{scene::planeShape({0, 0, 0.495}, {0, 0, -1}), 0, ""};
+    const auto make = [&](const scene::Scene&) { return Result<std::optional<scene::Obstacle>>(ceiling); };
+    const auto changed = simulation->apply(sim::ChangeObstacle{.obstacle = std::nullopt, .make = make});
+    ASSERT_TRUE(changed) << changed.error().text();
+    sim::State broken = simulation->snapshot();
+    broken.velocity[10].x = std::numeric_limits<float>::quiet_NaN();
+    simulation->upload(broken);
+    ASSERT_TRUE(simulation->step());
+    ASSERT_TRUE(simulation->counters().nonFinite);
+    simulation->rollback();
+    const sim::State back = simulation->snapshot();
+    ASSERT_EQ(back.count(), 128U);
+    EXPECT_EQ(back.images, kept.images);
+    for (std::uint32_t rank = 0; rank < back.count(); ++rank) EXPECT_TRUE(sameState(back, rank, kept, rank)) << rank;
 }
 
 // After a return to the last good state, the lists are rebuilt only in the next substep.

@@ -178,6 +178,16 @@ void CpuDevice::fill(Buffer& buffer, std::uint32_t value) {
     }
 }
 
+void CpuDevice::copy(const Buffer& from, std::size_t fromOffset, std::size_t bytes, Buffer& to, std::size_t toOffset) {
+    checkRange("copy", from, fromOffset, bytes);
+    checkRange("copy", to, toOffset, bytes);
+    const CpuBuffer& source = cpuBuffer(from);
+    const CpuBuffer& target = cpuBuffer(to);
+    const std::size_t begin = source.words().bytesFor(fromOffset);
+    std::memcpy(target.data() + target.words().bytesFor(toOffset), source.data() + begin,
+                source.words().bytesFor(fromOffset + bytes) - begin);
+}
+
 void CpuDevice::launch(const Launch& launch) {
     if (launch.kernel == nullptr) programError("a launch without a kernel");
     const auto& kernel = static_cast<const CpuKernel&>(*launch.kernel);
@@ -218,12 +228,14 @@ std::unique_ptr<WordQueue> CpuDevice::createWordQueue() {
 }
 
 void CpuDevice::beginTimer(unsigned slot) {
+    if (!timersUsed_) return;
     timed_ = slot;
     if (seconds_.size() <= slot) seconds_.resize(slot + 1);
     began_ = Clock::now();
 }
 
 void CpuDevice::endTimer() {
+    if (!timersUsed_) return;
     seconds_[timed_] += std::chrono::duration<double>(Clock::now() - began_).count();
 }
 

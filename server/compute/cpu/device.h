@@ -26,9 +26,11 @@ class CpuDevice final : public Device {
     void upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) override;
     void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) override;
     void fill(Buffer& buffer, std::uint32_t value) override;
+    void copy(const Buffer& from, std::size_t fromOffset, std::size_t bytes, Buffer& to, std::size_t toOffset) override;
     void launch(const Launch& launch) override;
     std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) override;
     std::unique_ptr<WordQueue> createWordQueue() override;
+    void useTimers(bool use) override { timersUsed_ = use; }
     void beginTimer(unsigned slot) override;
     void endTimer() override;
     std::vector<double> takeTimes() override;
@@ -43,6 +45,7 @@ class CpuDevice final : public Device {
     std::shared_ptr<int> readBacks_ = std::make_shared<int>(0);  // under way
     std::vector<double> seconds_;                                // by timer slot
     unsigned timed_ = 0;
+    bool timersUsed_ = true;
     std::chrono::steady_clock::time_point began_;
 };
 

@@ -139,6 +139,16 @@ void GlDevice::fill(Buffer& buffer, std::uint32_t value) {
     context_->state().afterCopy();
 }
 
+void GlDevice::copy(const Buffer& from, std::size_t fromOffset, std::size_t bytes, Buffer& to, std::size_t toOffset) {
+    checkRange("copy", from, fromOffset, bytes);
+    checkRange("copy", to, toOffset, bytes);
+    context_->use();
+    context_->state().beforeCopy();
+    glCopyNamedBufferSubData(glBuffer(from).id(), glBuffer(to).id(), static_cast<GLintptr>(fromOffset),
+                             static_cast<GLintptr>(toOffset), static_cast<GLsizeiptr>(bytes));
+    context_->state().afterCopy();
+}
+
 void GlDevice::launch(const Launch& launch) {
     if (launch.kernel == nullptr) programError("a launch without a kernel");
     const auto& kernel = static_cast<const GlKernel&>(*launch.kernel);
@@ -175,11 +185,13 @@ std::unique_ptr<WordQueue> GlDevice::createWordQueue() {
 }
 
 void GlDevice::beginTimer(unsigned slot) {
+    if (!timersUsed_) return;
     context_->use();
     timers_.begin(slot);
 }
 
 void GlDevice::endTimer() {
+    if (!timersUsed_) return;
     context_->use();
     timers_.end();
 }

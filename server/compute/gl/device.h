@@ -28,9 +28,11 @@ class GlDevice final : public Device {
     void upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) override;
     void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) override;
     void fill(Buffer& buffer, std::uint32_t value) override;
+    void copy(const Buffer& from, std::size_t fromOffset, std::size_t bytes, Buffer& to, std::size_t toOffset) override;
     void launch(const Launch& launch) override;
     std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) override;
     std::unique_ptr<WordQueue> createWordQueue() override;
+    void useTimers(bool use) override { timersUsed_ = use; }
     void beginTimer(unsigned slot) override;
     void endTimer() override;
     std::vector<double> takeTimes() override;
@@ -47,6 +49,7 @@ class GlDevice final : public Device {
     bool copiesFail_ = false;
     std::shared_ptr<ReadBackPlaces> readBacks_;
     Timers timers_;
+    bool timersUsed_ = true;
 };
 
 }  // namespace spherule::compute::gl

@@ -29,7 +29,7 @@ void declareLists(PlanBuilder& plan) {
     plan.prefixSumOnRebuild(Stage::SortCells, Pass::Grid, CellStart, {LAUNCH_BLOCKS, LAUNCH_SUPERBLOCKS},
                             plan.plan().grid.all() + 1);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_scatter.comp", LAUNCH_SPHERES, cellOfSphere);
-    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_order.comp", LAUNCH_CELLS);
+    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_order.comp", LAUNCH_CELL_RUNS, {{"otherOrder", RankInCell}});
     plan.onRebuild(Stage::Reference, Pass::Grid, "list_reference.comp", LAUNCH_SPHERES);
     plan.onRebuild(Stage::Reference, Pass::Grid, "list_drift.comp", LAUNCH_ONE);
     plan.onRebuild(Stage::Lists, Pass::Lists, "list_build.comp", LAUNCH_GROUPS);

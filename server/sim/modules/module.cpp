@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/sphere_columns.h"
+
 namespace spherule::sim {
 
 const std::array<const Module*, featureCount>& modules() {
@@ -120,6 +122,8 @@ void PlanBuilder::atStepEnd(Pass pass, std::string_view kernel) {
 }
 
 void PlanBuilder::finish() {
+    for (const auto& [array, kept] : keptArrays)
+        if (plan_.has(array)) arrays({kept});
     std::ranges::sort(plan_.arrays, {}, &ArraySpec::array);
     if (has(Feature::Contacts))
         for (const ArraySpec& spec : plan_.arrays) {

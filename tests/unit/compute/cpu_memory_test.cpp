@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "compute/cpu/device.h"
 #include "compute/cpu/memory.h"
 
 namespace spherule::compute::cpu {
@@ -66,6 +67,20 @@ TEST(CpuMemory, ReachesAnyWord) {
         std::uint32_t value = 0;
         memory.words().load(memory.data(), 4 * k, std::as_writable_bytes(std::span(&value, 1)));
         EXPECT_EQ(value, k % 3 == 2 ? k : real(static_cast<float>(k))) << "word " << k;
+    }
+}
+
+TEST(CpuMemory, IsCopiedWordByWord) {
+    for (const auto* const choice : {"cpu:1", "cpu-double:1"}) {
+        const auto device = openDevice(choice, "").value();
+        const auto from = device->createBuffer("from", 24, "rru").value();
+        const auto to = device->createBuffer("to", 36, "rru").value();
+        const HostWords values{real(1), real(2), 3, real(4), real(5), 6};
+        device->upload(*from, 0, std::as_bytes(std::span(values)));
+        device->copy(*from, 4, 20, *to, 16);
+        HostWords back(9);
+        device->download(*to, 0, std::as_writable_bytes(std::span(back)));
+        EXPECT_EQ(back, (HostWords{0, 0, 0, 0, real(2), 3, real(4), real(5), 6})) << choice;
     }
 }
 

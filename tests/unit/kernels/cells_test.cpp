@@ -36,7 +36,9 @@ struct Cells {
         launch("cell_count", slots, how);
         prefixSum(start);
         launch("cell_scatter", slots, how);
-        launch("cell_order", slots, how);
+        const Slot orderSlots[] = {
+            {"cellStart", start}, {"cellOrder", order}, {"otherOrder", place}, {"idAndMaterial", id}};
+        launch("cell_order", orderSlots, how);
     }
 
     std::vector<uint> idsOf(uint cell) const {
@@ -50,12 +52,24 @@ struct Cells {
     std::vector<uint> id, start, place, cells, order;
 };
 
-TEST(KernelsAsCpp, SpheresOfACrowdedCellAreSortedById) {
-    Cells cells(std::vector<vec4>(1000, vec4(0.5F, 0.5F, 0.5F, 0.1F)));
-    cells.sort();
-    std::vector<uint> wanted(1000);
-    std::iota(wanted.begin(), wanted.end(), 0U);
-    EXPECT_EQ(cells.idsOf(0), wanted);
+// Cells that a single thread sorts, and crowds. Ids have all 24 bits, and a material above them.
+TEST(KernelsAsCpp, SpheresOfACellAreSortedByIdWhateverTheirNumber) {
+    std::mt19937 random(5);
+    for (const uint spheres : {2U, 31U, 32U, 33U, 64U, 1000U, 5000U}) {
+        Cells cells(std::vector<vec4>(spheres, vec4(0.5F, 0.5F, 0.5F, 0.1F)));
+        const uint step = (1U << 24U) / spheres;
+        std::vector<uint> wanted;
+        for (uint& word : cells.id) {
+            word = word * step + static_cast<uint>(random()) % step;
+            wanted.push_back(word);
+            word |= (static_cast<uint>(random()) % 256U) << 24U;
+        }
+        std::ranges::sort(wanted);
+        cells.sort();
+        std::vector<uint> ids = cells.idsOf(0);
+        for (uint& id : ids) id &= (1U << 24U) - 1U;
+        EXPECT_EQ(ids, wanted) << spheres;
+    }
 }
 
 TEST(KernelsAsCpp, EverySphereIsInItsPeriodicCell) {

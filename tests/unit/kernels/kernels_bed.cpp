@@ -89,6 +89,7 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"nearObstacles", nearObstacles},
                           {"cellStart", cellStart},
                           {"rankInCell", rankInCell_},
+                          {"otherOrder", rankInCell_},
                           {"cellOfSphere", sortScratchWords_},
                           {"cellOrder", cellOrder_},
                           {"slotOf", slots_},
