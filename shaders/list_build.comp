@@ -98,6 +98,10 @@ void reserve() {
 }
 
 LANE_BUNDLE_KERNEL(allCells() / 8u) {
+    if (spheresOfGroup(invocation, levelOfGroup(invocation)) == 0u) {
+        if (FIRST_THREAD) groupRange[invocation] = uvec2(0u, 0u);
+        return;
+    }
     uint sampleRound = counters[COUNTER_REBUILDS];
     base = UNLISTED;
     uint count = 0u;

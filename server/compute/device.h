@@ -111,12 +111,12 @@ class Device {
     [[nodiscard]] virtual std::uint64_t hostBytes(std::uint64_t bytes, std::string_view words = "u") const = 0;
 
     // Compiles `file` with the defines. An error contains the compiler's messages with file and line. A kernel has a
-    // local size of 64 (or of 1, to measure the cost of small groups), a PAIR_KERNEL the size that suits the device. A
-    // kernel has at most maxKernelBuffers storage buffers and at most one uniform block (binding 0). It may have the
-    // uniforms `phase` and `invocations`. `invocations` is the invocation count, or 0xffffffff in an indirect launch,
-    // in which the kernel reads the count itself. The index of an invocation is gl_GlobalInvocationID.x +
-    // gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU device contains the kernels of shaders/ and
-    // accepts no others.
+    // local size of 64 (or of 1, to measure the cost of small groups). A PAIR_KERNEL or a BUNDLE_KERNEL has the size
+    // that suits the device. A kernel has at most maxKernelBuffers storage buffers and at most one uniform block
+    // (binding 0). It may have the uniforms `phase` and `invocations`. `invocations` is the invocation count, or
+    // 0xffffffff in an indirect launch, in which the kernel reads the count itself. The index of an invocation is
+    // gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU device contains the
+    // kernels of shaders/ and accepts no others.
     virtual Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
                                                          std::span<const Define> defines) = 0;
 

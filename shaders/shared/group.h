@@ -117,16 +117,21 @@ uint cellOfGroup(uint group, uint level, uint k) {
     return cellIndex(cells, x, y, z);
 }
 
-// Visits the pairs of one of `shares` equal shares of the spheres of a group. `sampleRound` selects the share of the
-// pairs of an overfull cell that is visited. Successive rounds visit all of them in turn.
-void visitShareOfGroup(uint group, uint share, uint shares, uint sampleRound) {
-    uint level = levelOfGroup(group);
-    uvec4 cells = cellsOf(level);
+uint spheresOfGroup(uint group, uint level) {
     uint spheres = 0u;
     for (uint k = 0u; k < 8u; ++k) {
         uint cell = cellOfGroup(group, level, k);
         spheres = spheres + cellStart[cell + 1u] - cellStart[cell];
     }
+    return spheres;
+}
+
+// Visits the pairs of one of `shares` equal shares of the spheres of a group. `sampleRound` selects the share of the
+// pairs of an overfull cell that is visited. Successive rounds visit all of them in turn.
+void visitShareOfGroup(uint group, uint share, uint shares, uint sampleRound) {
+    uint level = levelOfGroup(group);
+    uvec4 cells = cellsOf(level);
+    uint spheres = spheresOfGroup(group, level);
     uint size = (spheres + shares - 1u) / shares;
     uint from = min(share * size, spheres);
     uint to = min(from + size, spheres);

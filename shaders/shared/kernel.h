@@ -54,7 +54,7 @@
 //                               It is launched with a number of work groups, as PAIR_KERNEL is.
 //   PAIR_THREADS                The number of threads of a work group of PAIR_KERNEL, which the device chooses.
 //   THREAD                      The number of the thread in its work group; 0 in C++.
-//   THREADS                     The number of threads of a work group of BUNDLE_KERNEL; 1 in C++.
+//   THREADS                     The threads of a work group of BUNDLE_KERNEL, as many as suit the device; 1 in C++.
 //   FIRST_THREAD                True in one thread of the work group.
 //   SHARED(type, name)          Declares a variable of the work group.
 //   BARRIER                     Waits for all threads, and shows each what the others have written to such variables.
@@ -66,6 +66,9 @@
 
 #ifndef LOCAL_SIZE
 #define LOCAL_SIZE 64
+#endif
+#ifndef GROUP_THREADS
+#define GROUP_THREADS 64
 #endif
 #ifndef PAIR_THREADS
 #define PAIR_THREADS 64
@@ -123,7 +126,7 @@ layout(location = 0) uniform uint phase;
 #define RARE
 #define SUM_OF_LANES(value) (value)
 #define THREAD gl_LocalInvocationID.x
-#define THREADS uint(LOCAL_SIZE)
+#define THREADS uint(GROUP_THREADS)
 #define FIRST_THREAD (THREAD == 0u)
 #define SHARED(type, name) shared type name;
 #define BARRIER            \
@@ -133,7 +136,7 @@ layout(location = 0) uniform uint phase;
     groupMemoryBarrier(); \
     barrier();
 #define BUNDLE_KERNEL(count)                                                                     \
-    THREADS_OF_GROUP(LOCAL_SIZE)                                                                 \
+    THREADS_OF_GROUP(GROUP_THREADS)                                                              \
     void kernelBody(uint invocation);                                                            \
     void main() {                                                                                \
         uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;                   \

@@ -15,6 +15,8 @@ namespace {
 // The threads of a PAIR_KERNEL. A batch of a dense bundle has about 300 pairs. On an H100, 256 threads take the least
 // time.
 constexpr const char* pairThreads = "256";
+// llvmpipe runs eight threads of a work group at a time, and all vectors of threads that a group has, busy or not.
+constexpr const char* softwareGroupThreads = "16";
 constexpr const char* mesaLoopLimit = "65535u";  // LP_MAX_TGSI_LOOP_ITERATIONS of llvmpipe
 
 std::string shaderLog(GLuint shader) {
@@ -62,10 +64,9 @@ Result<std::unique_ptr<Kernel>> GlKernel::create(const std::shared_ptr<Context>&
                                                  std::string_view file, std::span<const Define> defines) {
     context->use();
     std::vector<Define> all(defines.begin(), defines.end());
-    if (context->software())
-        all.push_back({"LOOP_LIMIT", mesaLoopLimit});
-    else
-        all.push_back({"PAIR_THREADS", pairThreads});
+    if (context->software()) all.push_back({"LOOP_LIMIT", mesaLoopLimit});
+    if (context->software()) all.push_back({"GROUP_THREADS", softwareGroupThreads});
+    all.push_back({"PAIR_THREADS", context->software() ? softwareGroupThreads : pairThreads});
     auto source = expandSource(sources, file, all);
     if (!source) return tl::unexpected(source.error());
     std::unique_ptr<GlKernel> kernel(new GlKernel(context, std::string(file)));
