@@ -106,16 +106,16 @@ test("a recording, which has no rotation, offers no choice", async () => {
   const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click(control("open-file"))]);
   await chooser.setFiles(file);
   await when(page, () => spherule.session.replay?.source === "file" && spherule.session.newest);
-  assert.ok(!(await page.isVisible(control("rotation"))));
+  await page.waitForSelector(control("rotation"), { state: "hidden" });
   await page.click(control("present"));
   await when(page, () => !spherule.session.replay && spherule.session.newest);
-  assert.ok(await page.isVisible(control("rotation")));
+  await page.waitForSelector(control("rotation"));
 });
 
 test("a scene without friction offers no choice, and its frames have no rotation", async () => {
   assert.ok(await page.isVisible(control("rotation")));
   await server.ctl("set", "friction", "0");
   await when(page, () => spherule.session.newest?.columns.turn === undefined);
-  assert.ok(!(await page.isVisible(control("rotation"))));
+  await page.waitForSelector(control("rotation"), { state: "hidden" });
   assert.deepEqual(page.faults, []);
 });
