@@ -10,8 +10,8 @@ BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
 BUFFER(writeonly, vec4, velocityBefore)
-BUFFER(restrict, vec4, heldVelocity)
-BUFFER(restrict, vec4, heldSpin)
+BUFFER(restrict, vec4, unheldVelocity)
+BUFFER(restrict, vec4, unheldSpin)
 BUFFER(restrict, vec4, acceleration)
 BUFFER(coherent, uint, bundles)
 BUFFER(readonly, uint, counters)
@@ -19,15 +19,21 @@ BUFFER(readonly, uint, counters)
 #include "shared/drift.h"
 
 // A sphere's own acceleration is a running mean over this many substeps. The value of a single substep makes an elastic
-// gas under gravity lose energy.
+// gas under gravity lose energy. The mean matters only where it exceeds the change of velocity by gravity. So it begins
+// with a greater change than that, and ends after smaller ones at this part of it. Until it begins again its row is
+// zero, w too: most spheres at rest do not write it, and read w alone.
 #define MEAN_OVER 8.0f
+#define LEAST_MEAN 0.25f
 #define LARGEST_SQUARE 1.0e38f
 
 LANE_KERNEL(params.spheres) {
     real4 v = ROW(velocity, invocation);
     mask awake = liveLanes() && isAwake(v);
     if (!anyLane(awake)) return;
-    real4 held = ROW(heldVelocity, invocation);
+    real4 unheld = ROW(unheldVelocity, invocation);
+    mask holds = unheld.w != 0.0f;
+    real3 nothing = real3(0.0f, 0.0f, 0.0f);
+    precise real3 held = select(holds, real3(v) - real3(unheld), nothing);
     real3 fall = real3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY)) fall = real3(params.gravity) * params.substep;
     real3 pull = fall;  // without drag, which takes no part in the threshold of impacts
@@ -38,15 +44,25 @@ LANE_KERNEL(params.spheres) {
         pull = a * params.substep;
         fall = withDrag(a, real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
     }
-    real4 mean = ROW(acceleration, invocation);
-    real3 now = real3(mean) + (real3(held) + pull - real3(mean)) * (1.0f / MEAN_OVER);
-    SET_ROW(awake, acceleration, invocation, real4(now, mean.w), mean)
-    real squared = max(dot3(now, now), real(params.gravityChange * params.gravityChange));
+    real4 mean = real4(0.0f, 0.0f, 0.0f, 0.0f);
+    mask accelerated = MEMBER(acceleration, invocation, w) != 0.0f;
+    if (anyLane(accelerated)) mean = ROW(acceleration, invocation);
+    real3 change = held + pull;
+    real3 now = real3(mean) + (change - real3(mean)) * (1.0f / MEAN_OVER);
+    real squared = dot3(now, now);
+    float least = params.gravityChange * params.gravityChange;
+    mask lasts = dot3(change, change) > least || (accelerated && squared > least * (LEAST_MEAN * LEAST_MEAN));
+    mask changes = awake && (lasts || accelerated);
+    if (anyLane(changes)) {
+        real4 row = real4(select(lasts, now, nothing), select(lasts, real(1.0f), real(0.0f)));
+        SET_ROW(changes, acceleration, invocation, row, mean)
+    }
+    squared = max(squared, real(least));
     if (HAS(FIELDS)) squared = max(squared, dot3(pull, pull));
     SET_ROW(awake, velocityBefore, invocation, real4(real3(v), squared), v)
-    precise real3 unheld = real3(v) + fall;
-    precise real3 start = unheld + real3(held);
-    SET_ROW(awake, heldVelocity, invocation, real4(-unheld, held.w), held)
+    precise real3 unheldNow = real3(v) + fall;
+    precise real3 start = unheldNow + held;
+    SET_ROW(awake, unheldVelocity, invocation, real4(unheldNow, unheld.w), unheld)
     SET_ROW(awake, velocity, invocation, real4(start, v.w), v)
     if (HAS(CONTACTS)) {
         real3 relative = start - real3(driftVelocity());
@@ -55,8 +71,9 @@ LANE_KERNEL(params.spheres) {
     }
     if (HAS(FRICTION)) {
         real4 s = ROW(angularVelocity, invocation);
-        real4 heldS = ROW(heldSpin, invocation);
-        SET_ROW(awake, heldSpin, invocation, real4(-real3(s), heldS.w), heldS)
-        SET_ROW(awake, angularVelocity, invocation, real4(real3(s) + real3(heldS), s.w), s)
+        real4 unheldTurn = ROW(unheldSpin, invocation);
+        precise real3 turn = select(holds, real3(s) - real3(unheldTurn), nothing);
+        SET_ROW(awake, unheldSpin, invocation, real4(real3(s), unheldTurn.w), unheldTurn)
+        SET_ROW(awake, angularVelocity, invocation, real4(real3(s) + turn, s.w), s)
     }
 }

@@ -13,8 +13,8 @@ BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
 BUFFER(readonly, vec4, velocityBefore)
-BUFFER(restrict, vec4, heldVelocity)
-BUFFER(restrict, vec4, heldSpin)
+BUFFER(restrict, vec4, unheldVelocity)
+BUFFER(restrict, vec4, unheldSpin)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, Obstacle, obstacles)
@@ -50,8 +50,8 @@ PRIVATE(uints, sphereMaterial)
 PRIVATE(real3, sphereVelocity)  // m/s
 PRIVATE(real3, sphereSpin)      // rad/s
 PRIVATE(real4, startVelocity)   // its row of `velocityBefore`, continued by impacts
-PRIVATE(real3, unheld)          // minus the velocity without held contacts (m/s)
-PRIVATE(real3, unheldSpin)
+PRIVATE(real3, unheld)          // the velocity without held impulses (m/s)
+PRIVATE(real3, unheldTurn)      // the spin without held torques (rad/s)
 PRIVATE(real3, heldByWalls)     // the change of velocity by the impulses that contacts with walls hold (m/s)
 PRIVATE(real3, spinByWalls)     // the change of spin by them (rad/s)
 PRIVATE(real, partsBefore)      // partOfSurface() of the surfaces at which the sphere held an impulse
@@ -120,7 +120,7 @@ void resistRollingAtWall(mask where, real3 n, real normalImpulse, real4 contact)
     momentOfRolling = moment;
     real3 change = select(where, moment * c, real3(0.0f, 0.0f, 0.0f));
     sphereSpin = sphereSpin + change;
-    unheldSpin = unheldSpin - change;
+    unheldTurn = unheldTurn + change;
 }
 
 void reportDroppedWall(uint id) {
@@ -170,7 +170,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
         real start = dot3(real3(startVelocity), n);
         if (HAS(MOTION)) start = start - dot3(surfaceVelocity, n);
         real acceleration = sqrt(startVelocity.w);
-        load = before - dot3(sphereVelocity + unheld, n) * mass;
+        load = before - dot3(sphereVelocity - unheld, n) * mass;
         load = select(load > -start * mass * LEAST_LOAD, load, real(0.0f));
         real least = -max(acceleration * IMPACT, before * inverseMass * IMPACT_LOAD);
         mask ahead = approaching && separation > 0.0f && start < least;
@@ -205,8 +205,8 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     real3 friction = real3(0.0f, 0.0f, 0.0f);
     real3 torque = real3(0.0f, 0.0f, 0.0f);
     real lever = inverseMass / sphereRadius * 2.5f;
-    real3 velocityHeld = sphereVelocity + unheld;
-    real3 spinHeld = sphereSpin + unheldSpin;
+    real3 velocityHeld = sphereVelocity - unheld;
+    real3 spinHeld = sphereSpin - unheldTurn;
     momentOfRolling = real3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) {
         // Before friction: a contact at rest holds the torque of its friction, which rolling resistance bears.
@@ -239,8 +239,8 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
         // As correctHeld() in shared/contact_pair.h.
         precise real3 heldNow = velocityHeld + (impulse - oldImpulse) * inverseMass;
         precise real3 heldTurn = spinHeld - (torque - heldTorque) * lever;
-        unheld = select(forgets, heldNow - sphereVelocity, unheld);
-        unheldSpin = select(forgets, heldTurn - sphereSpin, unheldSpin);
+        unheld = select(forgets, sphereVelocity - heldNow, unheld);
+        unheldTurn = select(forgets, sphereSpin - heldTurn, unheldTurn);
     }
     precise real3 heldHere = heldByWalls + impulse * inverseMass;
     heldByWalls = select(touching, heldHere, heldByWalls);
@@ -290,15 +290,23 @@ void solveWalls(uintRow at) {
     touchesWalls = noLane();
     heldByWalls = real3(0.0f, 0.0f, 0.0f);
     spinByWalls = real3(0.0f, 0.0f, 0.0f);
-    if (!HAS(WALLS) && !HAS(OBSTACLES)) return;
-    real reach = sqrt(dot3(sphereVelocity, sphereVelocity)) * params.substep + sphereRadius * SLOP;
-    mask visits = !clearOfFaces(reach) || partsBefore != 0.0f;
     uints near = uints(NO_OBSTACLES);
-    if (HAS(OBSTACLES)) {
-        near = select(sphereAwake, obstaclesNear(at, reach), near);
-        visits = visits || near != NO_OBSTACLES;
+    mask visits = partsBefore != 0.0f;
+    if (HAS(WALLS) || HAS(OBSTACLES)) {
+        real reach = sqrt(dot3(sphereVelocity, sphereVelocity)) * params.substep + sphereRadius * SLOP;
+        visits = visits || !clearOfFaces(reach);
+        if (HAS(OBSTACLES)) {
+            near = select(sphereAwake, obstaclesNear(at, reach), near);
+            visits = visits || near != NO_OBSTACLES;
+        }
     }
     if (!anyLane(sphereAwake && visits)) return;
+    unheld = real3(ROW(unheldVelocity, at));
+    if (HAS(FRICTION)) {
+        sphereSpin = real3(ROW(angularVelocity, at));
+        unheldTurn = real3(ROW(unheldSpin, at));
+    }
+    if (!HAS(WALLS) && !HAS(OBSTACLES)) return;
     uints word = ROW(idAndMaterial, at);
     sphereId = idOf(word);
     sphereMaterial = HAS(MATERIALS) ? materialOf(word) : uints(params.material);
@@ -325,40 +333,33 @@ LANE_KERNEL(params.spheres) {
     if (!anyLane(sphereAwake)) return;
     float h = params.substep;
     real4 x = ROW(position, invocation);
-    real4 held = ROW(heldVelocity, invocation);
-    real4 s = real4(0.0f, 0.0f, 0.0f, 0.0f);
-    real4 heldS = s;
-    if (HAS(FRICTION)) {
-        s = ROW(angularVelocity, invocation);
-        heldS = ROW(heldSpin, invocation);
-    }
+    real parts = MEMBER(unheldVelocity, invocation, w);
     spherePoint = real3(x);
     sphereRadius = radiusOf(x);
     inverseMass = inverseMassOf(v);
     sphereVelocity = real3(v);
-    sphereSpin = real3(s);
-    unheld = real3(held);
-    unheldSpin = real3(heldS);
-    real pairsHeld = heldPairs(held);
-    partsBefore = held.w - pairsHeld;
+    sphereSpin = real3(0.0f, 0.0f, 0.0f);
+    real pairsHeld = heldPairs(parts);
+    partsBefore = parts - pairsHeld;
     solveWalls(invocation);
 
-    precise real3 holds = sphereVelocity + unheld;
-    // The difference has the rounding of the velocity, which must not stay as a thrust.
-    mask byWallsAlone = pairsHeld == 0.0f;
-    holds = select(byWallsAlone, heldByWalls, holds);
     // A sphere that holds nothing moves along its arc, which is exact under gravity alone.
     real heldNow = pairsHeld + partsNow;
     mask isFree = heldNow == 0.0f;
-    SET_ROW(sphereAwake, heldVelocity, invocation, real4(holds, heldNow), held)
-    if (anyLane(touchesWalls)) {
+    mask changes = sphereAwake && (touchesWalls || partsBefore != 0.0f);
+    if (anyLane(changes)) {
+        // The difference of velocities has their rounding. It must not stay as a thrust, so the sums of the walls'
+        // impulses replace it where they are all that the sphere holds.
+        mask byWallsAlone = pairsHeld == 0.0f;
+        unheld = select(byWallsAlone, sphereVelocity - heldByWalls, unheld);
+        SET_ROW(changes, unheldVelocity, invocation, real4(unheld, heldNow), ROW(unheldVelocity, invocation))
         SET_ROW(touchesWalls, velocity, invocation, real4(sphereVelocity, v.w), v)
-        if (HAS(FRICTION)) SET_ROW(touchesWalls, angularVelocity, invocation, real4(sphereSpin, s.w), s)
-    }
-    if (HAS(FRICTION)) {
-        real3 spins = sphereSpin + unheldSpin;
-        spins = select(byWallsAlone, spinByWalls, spins);
-        SET_ROW(sphereAwake, heldSpin, invocation, real4(spins, heldS.w), heldS)
+        if (HAS(FRICTION)) {
+            unheldTurn = select(byWallsAlone, sphereSpin - spinByWalls, unheldTurn);
+            SET_ROW(changes, unheldSpin, invocation, real4(unheldTurn, 0.0f), ROW(unheldSpin, invocation))
+            real4 spinBefore = ROW(angularVelocity, invocation);
+            SET_ROW(touchesWalls, angularVelocity, invocation, real4(sphereSpin, spinBefore.w), spinBefore)
+        }
     }
     real3 arc = sphereVelocity;
     if (HAS(FIELDS)) {

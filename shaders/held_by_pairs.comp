@@ -18,19 +18,19 @@ BUFFER(readonly, float, torqueX)
 BUFFER(readonly, float, torqueY)
 BUFFER(readonly, float, torqueZ)
 BUFFER(readonly, uint, counters)
-BUFFER(coherent, vec4, heldVelocity)
-BUFFER(coherent, vec4, heldSpin)
+BUFFER(coherent, vec4, unheldVelocity)
+BUFFER(coherent, vec4, unheldSpin)
 
 #include "shared/bundle_words.h"
 #include "shared/contact_memory.h"
 
 void addHeld(uint sphere, vec3 impulse, vec3 torque) {
     float inverseMass = inverseMassOf(velocity[sphere]);
-    vec4 held = heldVelocity[sphere];
-    heldVelocity[sphere] = vec4(vec3(held) + impulse * inverseMass, held.w + 1.0f);
+    vec4 unheld = unheldVelocity[sphere];
+    unheldVelocity[sphere] = vec4(vec3(unheld) - impulse * inverseMass, unheld.w + 1.0f);
     if (!HAS(FRICTION)) return;
     float lever = 2.5f * inverseMass / radiusOf(position[sphere]);
-    heldSpin[sphere] = vec4(vec3(heldSpin[sphere]) - torque * lever, 0.0f);
+    unheldSpin[sphere] = vec4(vec3(unheldSpin[sphere]) + torque * lever, 0.0f);
 }
 
 bool beginBundle(uint bundle) {

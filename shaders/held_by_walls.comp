@@ -6,15 +6,17 @@ PARAMETERS
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, vec4, angularVelocity)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, vec4, wallImpulse)
 BUFFER(readonly, vec4, wallTorque)
-BUFFER(writeonly, vec4, heldVelocity)
-BUFFER(writeonly, vec4, heldSpin)
+BUFFER(writeonly, vec4, unheldVelocity)
+BUFFER(writeonly, vec4, unheldSpin)
 
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
-    float inverseMass = inverseMassOf(velocity[invocation]);
+    vec4 v = velocity[invocation];
+    float inverseMass = inverseMassOf(v);
     uint first = idOf(idAndMaterial[invocation]) * params.maxWallHistory;
     vec3 impulse = vec3(0.0f, 0.0f, 0.0f);
     vec3 torque = vec3(0.0f, 0.0f, 0.0f);
@@ -25,6 +27,8 @@ KERNEL(params.spheres) {
         impulse = impulse + vec3(wallImpulse[k]);
         if (HAS(FRICTION)) torque = torque + vec3(wallTorque[k]);
     }
-    heldVelocity[invocation] = vec4(impulse * inverseMass, parts);
-    if (HAS(FRICTION)) heldSpin[invocation] = vec4(torque * (-2.5f * inverseMass / radiusOf(x)), 0.0f);
+    unheldVelocity[invocation] = vec4(vec3(v) - impulse * inverseMass, parts);
+    if (!HAS(FRICTION)) return;
+    float lever = 2.5f * inverseMass / radiusOf(x);
+    unheldSpin[invocation] = vec4(vec3(angularVelocity[invocation]) + torque * lever, 0.0f);
 }

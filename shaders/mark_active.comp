@@ -22,7 +22,7 @@ BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, restReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(coherent, uint, restlessBlock)
-BUFFER(readonly, vec4, heldVelocity)
+BUFFER(readonly, vec4, unheldVelocity)
 
 // A sphere with fewer contacts lies on others. It may roll about for long without changing what they carry.
 #define RESTLESS_PAIRS 5.0f
@@ -35,7 +35,7 @@ KERNEL(params.spheres) {
     uint substep = counters[COUNTER_SUBSTEPS];
     uint own = levelOf(storedRadius(position[invocation]));
     uint block = blockAt(vec3(reference), own);
-    if (HAS(BALANCED) && heldPairs(heldVelocity[invocation]) >= RESTLESS_PAIRS &&
+    if (HAS(BALANCED) && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
         quietTimeOf(restReference[idOf(idAndMaterial[invocation])]) < params.sleepTime)
         atomicExchange(restlessBlock[block], substep);
     atomicExchange(activeBlock[block], substep);

@@ -12,6 +12,7 @@ BUFFER(readonly, vec4, pulls)
 BUFFER(readonly, uint, slotOf)
 BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, unheldVelocity)
 BUFFER(restrict, vec4, restReference)
 
 // A row of `restReference` of a sphere that does not come to rest.
@@ -45,6 +46,11 @@ KERNEL(MOST_PULLS) {
     float share = 1.0f / ((1.0f + h * rate) * (1.0f + h * rate));
     vec3 given = limited(separation(vec3(point), vec3(x)) * (h * rate * rate * share), limits.x * h);
     vec3 pulled = limited(mean * share + given, max(limits.y, sqrt(dot3(mean, mean))));
-    velocity[sphere] = vec4(pulled - kick, abs(v.w));
+    vec3 to = pulled - kick;
+    velocity[sphere] = vec4(to, abs(v.w));
+    if (HAS(BALANCED)) {  // what it holds stays
+        vec4 unheld = unheldVelocity[sphere];
+        unheldVelocity[sphere] = withXyz(unheld, vec3(unheld) + (to - vec3(v)));
+    }
     if (HAS(SLEEP)) restReference[id] = restless(restReference[id]);
 }

@@ -5,8 +5,10 @@
 PARAMETERS
 #include "shared/accessors.h"
 
-BUFFER(restrict, vec4, heldVelocity)
-BUFFER(restrict, vec4, heldSpin)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, vec4, angularVelocity)
+BUFFER(restrict, vec4, unheldVelocity)
+BUFFER(restrict, vec4, unheldSpin)
 BUFFER(restrict, vec4, acceleration)
 BUFFER(restrict, vec4, wallImpulse)
 BUFFER(restrict, vec4, wallTorque)
@@ -15,10 +17,15 @@ vec4 scaled(vec4 row) {
     return withXyz(row, vec3(row) * params.substepRatio);
 }
 
+// `whole`: a velocity or a spin. `unheld`: the same without held impulses.
+vec4 withScaledRest(vec4 whole, vec4 unheld) {
+    return withXyz(unheld, vec3(whole) - (vec3(whole) - vec3(unheld)) * params.substepRatio);
+}
+
 KERNEL(params.spheres) {
-    heldVelocity[invocation] = scaled(heldVelocity[invocation]);
+    unheldVelocity[invocation] = withScaledRest(velocity[invocation], unheldVelocity[invocation]);
     acceleration[invocation] = scaled(acceleration[invocation]);
-    if (HAS(FRICTION)) heldSpin[invocation] = scaled(heldSpin[invocation]);
+    if (HAS(FRICTION)) unheldSpin[invocation] = withScaledRest(angularVelocity[invocation], unheldSpin[invocation]);
     for (uint k = invocation * params.maxWallHistory; k < (invocation + 1u) * params.maxWallHistory; ++k) {
         wallImpulse[k] = scaled(wallImpulse[k]);
         if (HAS(FRICTION)) wallTorque[k] = scaled(wallTorque[k]);

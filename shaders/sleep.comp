@@ -30,6 +30,8 @@ PARAMETERS
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
 BUFFER(restrict, vec4, velocityBefore)
+BUFFER(restrict, vec4, unheldVelocity)
+BUFFER(restrict, vec4, unheldSpin)
 BUFFER(restrict, vec4, restReference)  // by id; w: see accessors.h
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, idAndMaterial)
@@ -105,5 +107,17 @@ KERNEL(params.spheres) {
     // The velocity before the substep is zero too: neighbours bounce off a sphere at rest.
     velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, u.w);
     velocity[invocation] = sleepToggled(withXyz(v, vec3(0.0f, 0.0f, 0.0f)));
-    if (HAS(FRICTION)) angularVelocity[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    // The sphere keeps what it holds, without its velocity and its spin.
+    bool holds = false;
+    if (HAS(BALANCED)) {
+        vec4 unheld = unheldVelocity[invocation];
+        holds = unheld.w != 0.0f;
+        unheldVelocity[invocation] = withXyz(unheld, holds ? vec3(unheld) - vec3(v) : vec3(0.0f, 0.0f, 0.0f));
+    }
+    if (!HAS(FRICTION)) return;
+    vec3 spin = vec3(angularVelocity[invocation]);
+    angularVelocity[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    if (!HAS(BALANCED)) return;
+    vec4 unheldTurn = unheldSpin[invocation];
+    unheldSpin[invocation] = withXyz(unheldTurn, holds ? vec3(unheldTurn) - spin : vec3(0.0f, 0.0f, 0.0f));
 }

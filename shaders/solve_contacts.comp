@@ -13,8 +13,8 @@ BUFFER(coherent, vec4, position)
 BUFFER(coherent, vec4, velocity)
 BUFFER(coherent, vec4, angularVelocity)
 BUFFER(coherent, vec4, velocityBefore)
-BUFFER(coherent, vec4, heldVelocity)
-BUFFER(coherent, vec4, heldSpin)
+BUFFER(coherent, vec4, unheldVelocity)
+BUFFER(coherent, vec4, unheldSpin)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, uvec2, pairs)
@@ -76,9 +76,12 @@ RARE void expectPairs(uint first, uint count) {
 
 void visitPairs(slots a, slots b, uintRow at) {
     memory = at + remembered;
-    heldImpulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
+    real x = ROW(contactX, memory);  // most listed pairs hold nothing
+    heldImpulse = real3(x, real(0.0f), real(0.0f));
+    if (anyLane(x != 0.0f)) heldImpulse = real3(x, ROW(contactY, memory), ROW(contactZ, memory));
     if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
-    SET_ALL(contactX, memory, heldImpulse.x)
+    mask holds = heldImpulse.y != 0.0f || heldImpulse.z != 0.0f;
+    SET_ALL(contactX, memory, select(holds && heldImpulse.x == 0.0f, real(LEAST_HELD), heldImpulse.x))
     SET_ALL(contactY, memory, heldImpulse.y)
     SET_ALL(contactZ, memory, heldImpulse.z)
     if (HAS(FRICTION)) {

@@ -45,8 +45,8 @@ void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
     const auto slotOfHandle = [&](std::size_t handle) { return slots.empty() ? handle : std::size_t{slots[handle]}; };
     const auto position = read<glm::vec4>(Array::Position);
     const auto velocity = read<glm::vec4>(Array::Velocity);
-    auto held = read<glm::vec4>(Array::HeldVelocity);
-    auto heldSpin = read<glm::vec4>(Array::HeldSpin);
+    auto unheld = read<glm::vec4>(Array::UnheldVelocity);
+    auto unheldSpin = read<glm::vec4>(Array::UnheldSpin);
     for (const Array array : {Array::WallImpulse, Array::WallTorque, Array::WallSlip}) {
         if (!before.plan_.has(array)) continue;
         // The rows of torques have no surface: they belong to the rows of impulses.
@@ -67,14 +67,14 @@ void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
             const std::size_t slot = slotOfHandle(handle);
             const float inverseMass = std::abs(velocity[slot].w);
             const glm::vec4 part(glm::vec3(old[from]), 0);
-            if (array == Array::WallImpulse && !held.empty()) held[slot] -= part * inverseMass;
-            if (array == Array::WallTorque && !heldSpin.empty())
-                heldSpin[slot] += part * (2.5F * inverseMass / position[slot].w);  // as in held_by_walls.comp
+            if (array == Array::WallImpulse && !unheld.empty()) unheld[slot] += part * inverseMass;
+            if (array == Array::WallTorque && !unheldSpin.empty())
+                unheldSpin[slot] -= part * (2.5F * inverseMass / position[slot].w);  // as in held_by_walls.comp
         }
         if (plan_.has(array)) write<glm::vec4>(array, rows);
     }
-    if (!held.empty()) write<glm::vec4>(Array::HeldVelocity, held);
-    if (!heldSpin.empty()) write<glm::vec4>(Array::HeldSpin, heldSpin);
+    if (!unheld.empty()) write<glm::vec4>(Array::UnheldVelocity, unheld);
+    if (!unheldSpin.empty()) write<glm::vec4>(Array::UnheldSpin, unheldSpin);
 }
 
 void Pipeline::wake(std::span<const std::uint32_t> handles) {

@@ -187,8 +187,13 @@ void Pipeline::applyImpulse(std::uint32_t handle, glm::vec3 impulse) {
     const std::uint32_t slot = slotOf(handle);
     glm::vec4 velocity = velocityOf(handle);
     velocity.w = std::abs(velocity.w);
-    velocity += glm::vec4(impulse * velocity.w, 0);
-    write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
+    const glm::vec4 change(impulse * velocity.w, 0);
+    const glm::vec4 changed = velocity + change;
+    write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&changed, 1), slot);
+    if (plan_.has(Array::UnheldVelocity)) {  // what its contacts hold stays
+        const glm::vec4 unheld = rowOf<glm::vec4>(handle, Array::UnheldVelocity) + change;
+        write<glm::vec4>(Array::UnheldVelocity, std::span<const glm::vec4>(&unheld, 1), slot);
+    }
     awaitSpeeds();
     if (!plan_.features.has(Feature::Sleep)) return;
     // A slow push must also wake the sleepers that the sphere touches.

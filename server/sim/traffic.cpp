@@ -13,6 +13,7 @@ struct Use {
     Array array{};
     Of read{};
     Of written{};
+    double part = 1;  // of each element that is read
 };
 
 // The accesses of the kernels to spheres that rest on each other, away from walls.
@@ -20,25 +21,23 @@ constexpr Use uses[] = {
     {"begin_substep.comp", Array::Velocity, Of::Spheres, Of::Spheres},
     {"begin_substep.comp", Array::AngularVelocity, Of::Spheres, Of::Spheres},
     {"begin_substep.comp", Array::VelocityBefore, Of::None, Of::Spheres},
-    {"begin_substep.comp", Array::HeldVelocity, Of::Spheres, Of::Spheres},
-    {"begin_substep.comp", Array::HeldSpin, Of::Spheres, Of::Spheres},
-    {"begin_substep.comp", Array::Acceleration, Of::Spheres, Of::Spheres},
+    {"begin_substep.comp", Array::UnheldVelocity, Of::Spheres, Of::Spheres},
+    {"begin_substep.comp", Array::UnheldSpin, Of::Spheres, Of::Spheres},
+    {"begin_substep.comp", Array::Acceleration, Of::Spheres, Of::None, 0.25},
     {"solve_contacts.comp", Array::Position, Of::Visits, Of::Pushes},
     {"solve_contacts.comp", Array::Velocity, Of::Contacts, Of::Contacts},
     {"solve_contacts.comp", Array::AngularVelocity, Of::Contacts, Of::Contacts},
     {"solve_contacts.comp", Array::VelocityBefore, Of::Approaches, Of::None},
     {"solve_contacts.comp", Array::Pairs, Of::ListedPairs, Of::None},
     {"solve_contacts.comp", Array::ContactX, Of::ListedPairs, Of::TouchingPairs},
-    {"solve_contacts.comp", Array::ContactY, Of::ListedPairs, Of::TouchingPairs},
-    {"solve_contacts.comp", Array::ContactZ, Of::ListedPairs, Of::TouchingPairs},
+    {"solve_contacts.comp", Array::ContactY, Of::TouchingPairs, Of::TouchingPairs},
+    {"solve_contacts.comp", Array::ContactZ, Of::TouchingPairs, Of::TouchingPairs},
     {"solve_contacts.comp", Array::TorqueX, Of::TouchingPairs, Of::TouchingPairs},
     {"solve_contacts.comp", Array::TorqueY, Of::TouchingPairs, Of::TouchingPairs},
     {"solve_contacts.comp", Array::TorqueZ, Of::TouchingPairs, Of::TouchingPairs},
     {"finish_substep.comp", Array::Position, Of::Spheres, Of::Spheres},
     {"finish_substep.comp", Array::Velocity, Of::Spheres, Of::None},
-    {"finish_substep.comp", Array::AngularVelocity, Of::Spheres, Of::None},
-    {"finish_substep.comp", Array::HeldVelocity, Of::Spheres, Of::Spheres},
-    {"finish_substep.comp", Array::HeldSpin, Of::Spheres, Of::Spheres},
+    {"finish_substep.comp", Array::UnheldVelocity, Of::Spheres, Of::None, 0.25},
     {"finish_substep.comp", Array::ListReference, Of::Spheres, Of::None},
     {"integrate.comp", Array::Position, Of::Spheres, Of::Spheres},
     {"integrate.comp", Array::PositionLow, Of::Spheres, Of::Spheres},
@@ -115,7 +114,7 @@ std::vector<Traffic> trafficOf(const Plan& plan, const BedMeans& means) {
         for (const Use& use : uses) {
             if (use.kernel != launch.kernel || !plan.has(use.array)) continue;
             const auto bytes = static_cast<double>(typeOf(use.array).elementBytes);
-            rows.push_back({use.kernel, use.array, bytes * countOf(use.read, plan, means),
+            rows.push_back({use.kernel, use.array, bytes * use.part * countOf(use.read, plan, means),
                             bytes * countOf(use.written, plan, means)});
         }
     }

@@ -91,14 +91,14 @@ uint surfaceOf(vec4 row) {
     return uint(row.w) - 1u;
 }
 
-// A row of `heldVelocity`: w is the number of pairs in which the sphere holds an impulse, plus partOfSurface() of each
-// surface at which it holds one. All obstacles have one part together. The sum is exact up to 131,071 pairs.
+// A row of `unheldVelocity`: w is the number of pairs in which the sphere holds an impulse, plus partOfSurface() of
+// each surface at which it holds one. All obstacles have one part together. The sum is exact up to 131,071 pairs.
 float partOfSurface(uint surface) {
     return float(1u << min(surface, 6u)) * 0.0078125f;
 }
 
-ANY_REAL heldPairs(ANY_REAL4 held) {
-    return floor(held.w);
+ANY_REAL heldPairs(ANY_REAL parts) {
+    return floor(parts);
 }
 
 // True if a sum of parts contains the surface's part.

@@ -1,5 +1,5 @@
 // Solves the contact of two spheres by the law of the model `balanced`. The includer binds `position`, `velocity`,
-// `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
+// `angularVelocity`, `velocityBefore`, `unheldVelocity`, `unheldSpin`, `idAndMaterial` and `contactParams`, and has
 // included shared/separation.h, shared/contact_law.h, shared/wake.h and shared/contact_sums.h. It defines
 // `readHeldTorque()`, which sets `heldTorque` of the contacts that are solved. Most listed pairs touch nothing and need
 // no torque.
@@ -71,8 +71,8 @@ RARE Impact impactOf(mask approaching, mask held, slots a, slots b, real3 d, rea
     if (!anyLane(result.impact)) return result;
     // The impulses by which the other contacts of each sphere, so far, press it to the other one.
     real heldNow = dot3(heldImpulse, result.n);
-    real3 changeA = real3(va) + real3(ROW(heldVelocity, a));
-    real3 changeB = real3(vb) + real3(ROW(heldVelocity, b));
+    real3 changeA = real3(va) - real3(ROW(unheldVelocity, a));
+    real3 changeB = real3(vb) - real3(ROW(unheldVelocity, b));
     real loadA = select(ma > 0.0f, heldNow - dot3(changeA, result.n) / max(ma, real(1.0e-30f)), heldNow);
     real loadB = select(mb > 0.0f, heldNow + dot3(changeB, result.n) / max(mb, real(1.0e-30f)), heldNow);
     real load = min(loadA, loadB);
@@ -109,47 +109,47 @@ RARE void resistRolling(mask where, slots a, slots b, real3 n, real4 pa, real4 p
     real3 changeB = moment * (2.5f * mb / (rb * rb));
     precise real3 spinA = real3(sa) + changeA;
     precise real3 spinB = real3(sb) - changeB;
-    real4 wa = ROW(heldSpin, a);
-    real4 wb = ROW(heldSpin, b);
-    precise real3 heldA = (real3(sa) + real3(wa)) - spinA;  // as in correctHeld()
-    precise real3 heldB = (real3(sb) + real3(wb)) - spinB;
+    real4 wa = ROW(unheldSpin, a);
+    real4 wb = ROW(unheldSpin, b);
+    precise real3 unheldA = spinA - (real3(sa) - real3(wa));  // as in correctHeld()
+    precise real3 unheldB = spinB - (real3(sb) - real3(wb));
     SET_ROW(where, angularVelocity, a, real4(spinA, sa.w), sa)
     SET_ROW(where, angularVelocity, b, real4(spinB, sb.w), sb)
-    SET_ROW(where, heldSpin, a, real4(heldA, wa.w), wa)
-    SET_ROW(where, heldSpin, b, real4(heldB, wb.w), wb)
+    SET_ROW(where, unheldSpin, a, real4(unheldA, wa.w), wa)
+    SET_ROW(where, unheldSpin, b, real4(unheldB, wb.w), wb)
 }
 
-// Corrects the held rows of two spheres, if their contact does not hold the whole change of their velocities, or if it
-// begins or ends to hold an impulse. `heldChange`, `torqueChange`: changes of the impulse and the torque that it holds.
-// `begins`: 1 if it begins, -1 if it ends. The sums are exact for a sphere that holds nothing.
+// Corrects the unheld rows of two spheres, if their contact does not hold the whole change of their velocities, or if
+// it begins or ends to hold an impulse. `heldChange`, `torqueChange`: changes of the impulse and the torque that it
+// holds. `begins`: 1 if it begins, -1 if it ends. The sums are exact for a sphere that holds nothing.
 RARE void correctHeld(mask where, slots a, slots b, real3 heldChange, real3 torqueChange, real begins, real4 va,
                       real4 vb, real4 sa, real4 sb, real leverA, real leverB) {
     real ma = effectiveInverseMass(va);
     real mb = effectiveInverseMass(vb);
-    real4 ha = ROW(heldVelocity, a);
-    real4 hb = ROW(heldVelocity, b);
-    precise real3 heldA = (real3(va) + real3(ha)) + heldChange * ma;
-    precise real3 heldB = (real3(vb) + real3(hb)) - heldChange * mb;
-    SET_ROW(where, heldVelocity, a, real4(heldA - real3(ROW(velocity, a)), ha.w + begins), ha)
-    SET_ROW(where, heldVelocity, b, real4(heldB - real3(ROW(velocity, b)), hb.w + begins), hb)
+    real4 ua = ROW(unheldVelocity, a);
+    real4 ub = ROW(unheldVelocity, b);
+    precise real3 heldA = (real3(va) - real3(ua)) + heldChange * ma;
+    precise real3 heldB = (real3(vb) - real3(ub)) - heldChange * mb;
+    SET_ROW(where, unheldVelocity, a, real4(real3(ROW(velocity, a)) - heldA, ua.w + begins), ua)
+    SET_ROW(where, unheldVelocity, b, real4(real3(ROW(velocity, b)) - heldB, ub.w + begins), ub)
     if (!HAS(FRICTION)) return;
-    real4 wa = ROW(heldSpin, a);
-    real4 wb = ROW(heldSpin, b);
-    precise real3 spinA = (real3(sa) + real3(wa)) - torqueChange * leverA;
-    precise real3 spinB = (real3(sb) + real3(wb)) - torqueChange * leverB;
-    SET_ROW(where, heldSpin, a, real4(spinA - real3(ROW(angularVelocity, a)), wa.w), wa)
-    SET_ROW(where, heldSpin, b, real4(spinB - real3(ROW(angularVelocity, b)), wb.w), wb)
+    real4 wa = ROW(unheldSpin, a);
+    real4 wb = ROW(unheldSpin, b);
+    precise real3 turnA = (real3(sa) - real3(wa)) - torqueChange * leverA;
+    precise real3 turnB = (real3(sb) - real3(wb)) - torqueChange * leverB;
+    SET_ROW(where, unheldSpin, a, real4(real3(ROW(angularVelocity, a)) - turnA, wa.w), wa)
+    SET_ROW(where, unheldSpin, b, real4(real3(ROW(angularVelocity, b)) - turnB, wb.w), wb)
 }
 
 // A sleeper does not move, but the impulses that its contacts hold change. It begins with them when it wakes.
 RARE void updateSleeper(mask where, slots sleeper, real4 v, real4 x, real3 impulse, real3 torque) {
     real inverseMass = inverseMassOf(v);
-    real4 held = ROW(heldVelocity, sleeper);
-    SET_ROW(where, heldVelocity, sleeper, real4(real3(held) + impulse * inverseMass, held.w), held)
+    real4 unheld = ROW(unheldVelocity, sleeper);
+    SET_ROW(where, unheldVelocity, sleeper, real4(real3(unheld) - impulse * inverseMass, unheld.w), unheld)
     if (!HAS(FRICTION)) return;
-    real4 spin = ROW(heldSpin, sleeper);
+    real4 spin = ROW(unheldSpin, sleeper);
     real lever = inverseMass / radiusOf(x) * 2.5f;
-    SET_ROW(where, heldSpin, sleeper, real4(real3(spin) - torque * lever, spin.w), spin)
+    SET_ROW(where, unheldSpin, sleeper, real4(real3(spin) + torque * lever, spin.w), spin)
 }
 
 // Solves the contacts in `where` whose spheres meet in this substep or hold an impulse. Returns those whose impulse has

@@ -35,7 +35,7 @@
 //   ROW(array, at)              The elements of a buffer at `at`: uints, slots or a uintRow.
 //   SET_ROW(where, array, at, to, old)  Sets the elements of the lanes in `where`. `old`: their present values.
 //   SET_ALL(array, at, to)      Sets the elements of all lanes of a uintRow. Lanes that do not exist must keep theirs.
-//   MEMBER(array, at, member)   A vec4 member of the structs of a buffer.
+//   MEMBER(array, at, member)   A vec4 member of the structs of a buffer, or a component of its vectors.
 //   wholeOf(value)              The whole number of a real from 0 to 2^24.
 //   RARE                        Before a function: keeps it out of the code around its calls.
 //   EACH_LANE(where, function, at)  Calls the function with the number of each lane in `where`.

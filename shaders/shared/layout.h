@@ -243,3 +243,6 @@ struct SphereStatistics {
 // A sphere carries over at most this many contacts when the lists are rebuilt. A sphere touches at most 12 others that
 // are no smaller.
 #define CARRIED_MOST 16u
+
+// In `balanced`, the x of a held impulse whose x would be zero (N s). So x alone tells whether a contact holds one.
+#define LEAST_HELD 1.0e-30f

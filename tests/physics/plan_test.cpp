@@ -100,11 +100,11 @@ TEST(Plan, WithoutFrictionHasNoRotation) {
         const sim::Plan without = planOf(scene);
         const sim::Plan with = planOf(everything(model));
         EXPECT_TRUE(with.has(Array::AngularVelocity));
-        for (const Array array : {Array::AngularVelocity, Array::HeldSpin, Array::DeltaOmega, Array::TorqueX,
+        for (const Array array : {Array::AngularVelocity, Array::UnheldSpin, Array::DeltaOmega, Array::TorqueX,
                                   Array::TorqueY, Array::TorqueZ, Array::WallTorque, Array::WallSlip})
             EXPECT_FALSE(without.has(array)) << nameOf(array);
         for (const Array array : {Array::ContactX, Array::ContactY, Array::ContactZ, Array::CarriedCount,
-                                  Array::Carried, Array::HeldVelocity, Array::WallImpulse})
+                                  Array::Carried, Array::UnheldVelocity, Array::WallImpulse})
             EXPECT_EQ(without.has(array), balanced) << nameOf(array);
         EXPECT_EQ(dispatches(without, Pass::ContactMemory), balanced);
         EXPECT_LT(without.bytes(), with.bytes());
@@ -127,7 +127,7 @@ TEST(Plan, WithoutContactsAndForcesOnlyMoves) {
         // Open faces: check_motion.comp belongs to the last pass.
         EXPECT_EQ(dispatched, balanced ? std::vector({Pass::Begin, Pass::Finish}) : std::vector({Pass::Integrate}));
         std::vector<Array> needed = arraysOfEveryPlan;
-        if (balanced) needed.insert(needed.end(), {Array::VelocityBefore, Array::HeldVelocity, Array::Acceleration});
+        if (balanced) needed.insert(needed.end(), {Array::VelocityBefore, Array::UnheldVelocity, Array::Acceleration});
         if (model == scene::Model::Accurate) needed.push_back(Array::PositionLow);
         for (const Array array : needed) EXPECT_TRUE(plan.has(array)) << nameOf(array);
         EXPECT_EQ(plan.arrays.size(), needed.size());

@@ -105,6 +105,31 @@ TEST_P(Pulls, GivesTheMomentumOfTheForceThatItReports) {
     }
 }
 
+// A push and a pull give a sphere on a smooth floor their momentum once: its contact goes on to hold its weight alone.
+TEST_P(Pulls, LeaveTheHeldImpulsesOfARestingSphere) {
+    scene::Scene scene = fineStepBox(2);
+    scene.step = 1.0 / 1920;
+    scene.quality.model = GetParam();
+    setRestitution(scene, 0.3);
+    addSphere(scene, {0, 0, -1 + radius}, radius);
+    const auto simulation = simulate(scene);
+    run(*simulation, 1);
+    const auto velocity = [&] { return velocityOf(simulation->snapshot(), 0); };
+    ASSERT_LT(glm::length(velocity()), 1e-3);
+    ASSERT_TRUE(simulation->apply(sim::Push{.target = 0U, .impulse = mass * glm::dvec3(0.3, 0.1, 0)}));
+    for (int k = 0; k < 10; ++k) {
+        run(*simulation, scene.step);
+        EXPECT_LT(glm::length(velocity() - glm::dvec3(0.3, 0.1, 0)), 1e-3) << "substep " << k;
+    }
+    glm::dvec3 momentum = mass * velocity();
+    for (int k = 0; k < 100; ++k) {
+        const glm::dvec3 to = glm::dvec3(0.4, 0, -1 + radius);
+        momentum += scene.step * pull(*simulation, {.session = 1, .sphere = 0, .point = to});
+        run(*simulation, scene.step);
+    }
+    EXPECT_LT(glm::length(mass * velocity() - momentum), 0.01 * glm::length(momentum));
+}
+
 TEST_P(Pulls, EndWithReleaseAndMoveWithTheSession) {
     scene::Scene scene = oneSphere(GetParam(), {}, {-0.5, 0, 0});
     scene.spheres.push_back({.position = {0.5, 0, 0}, .radius = static_cast<float>(radius)});

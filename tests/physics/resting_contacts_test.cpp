@@ -117,10 +117,13 @@ TEST_P(RestingBedIn, TetrahedraDoNotCreep) {
     }
 }
 
-// A box of 600 spheres, which gravity tilts by 10 degrees after 3 s.
+// A box of 600 spheres, which gravity tilts by 10 degrees after 3 s. One sphere that still finds another place moves
+// the mean of its box by more than all others creep, so the bound holds for the mean over boxes.
 TEST_P(RestingBedIn, DoesNotCreepInATiltedBox) {
     constexpr double angle = 10 * std::numbers::pi / 180;
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    constexpr std::uint64_t seeds = 8;
+    double mean = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         SCOPED_TRACE(seed);
         const scene::Scene scene = bed({.count = 600, .depth = 8, .seed = seed, .pitch = 2.2});
         const auto simulation = simulate(inFrame(scene, GetParam()));
@@ -135,9 +138,11 @@ TEST_P(RestingBedIn, DoesNotCreepInATiltedBox) {
         for (std::uint32_t id = 0; id < after.count(); ++id)
             moved += glm::distance(positionOf(after, id), positionOf(before, id)) / after.count();
         const double speed = moved / (3 * GetParam().scale);
-        EXPECT_LT(speed, creep) << "mean over the spheres";
+        EXPECT_LT(speed, 2 * creep) << "mean over the spheres";
+        mean += speed / seeds;
         RecordProperty("creepSeed" + std::to_string(seed), figure(speed));
     }
+    EXPECT_LT(mean, 0.5 * creep) << "mean over the boxes";
 }
 
 INSTANTIATE_TEST_SUITE_P(Frame, RestingBedIn, testing::Values(atRest(), rotated(), scaled()),

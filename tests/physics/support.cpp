@@ -127,14 +127,17 @@ class Components {
 
 void readSpheres(reference::World& world, sim::Simulation& simulation) {
     const Words ids = idsOf(simulation);
-    const auto velocity = simulation.pipeline().read<glm::vec4>(sim::Array::HeldVelocity);
-    const auto spin = simulation.pipeline().read<glm::vec4>(sim::Array::HeldSpin);
+    const auto velocity = simulation.pipeline().read<glm::vec4>(sim::Array::Velocity);
+    const auto spin = simulation.pipeline().read<glm::vec4>(sim::Array::AngularVelocity);
+    const auto unheld = simulation.pipeline().read<glm::vec4>(sim::Array::UnheldVelocity);
+    const auto unheldSpin = simulation.pipeline().read<glm::vec4>(sim::Array::UnheldSpin);
     const auto acceleration = simulation.pipeline().read<glm::vec4>(sim::Array::Acceleration);
     for (std::size_t slot = 0; slot < ids.size(); ++slot) {
         reference::Sphere& sphere = world.spheres[ids[slot]];
-        sphere.heldVelocity = glm::dvec3(velocity[slot]);
+        const bool holds = unheld[slot].w != 0;
+        sphere.heldVelocity = holds ? glm::dvec3(velocity[slot] - unheld[slot]) : glm::dvec3(0);
         sphere.acceleration = glm::dvec3(acceleration[slot]);
-        if (!spin.empty()) sphere.heldSpin = glm::dvec3(spin[slot]);
+        if (!unheldSpin.empty()) sphere.heldSpin = holds ? glm::dvec3(spin[slot] - unheldSpin[slot]) : glm::dvec3(0);
     }
 }
 

@@ -172,6 +172,13 @@ SPHERULE_INLINE real4 membersOf(const T* array, const uints& at, vec4 T::*member
     return gather([&](unsigned lane) { return (array[at.v[lane]].*member).lanes; });
 }
 
+// A component of vectors.
+SPHERULE_INLINE real membersOf(const vec4* array, uintRow at, float vec4::*member) {
+    Reals row;
+    for (unsigned lane = 0; lane < lanes; ++lane) row[lane] = array[at.first + (lane < at.live ? lane : 0)].*member;
+    return real(row);
+}
+
 // A member of pairs of numbers.
 template <class Pair>
 SPHERULE_INLINE uints membersOf(const Pair* array, uintRow at, std::uint32_t Pair::*member) {

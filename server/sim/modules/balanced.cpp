@@ -8,8 +8,8 @@ void declareSolver(PlanBuilder& plan) {
     using enum Array;
     const bool contacts = plan.has(Feature::Contacts);
     const bool friction = plan.has(Feature::Friction);
-    plan.arrays({VelocityBefore, HeldVelocity, Acceleration});
-    if (friction) plan.arrays({HeldSpin});
+    plan.arrays({VelocityBefore, UnheldVelocity, Acceleration});
+    if (friction) plan.arrays({UnheldSpin});
     if (plan.hasSurfaces()) plan.arrays({WallImpulse});
     if (plan.hasSurfaces() && friction) plan.arrays({WallTorque});
     plan.overSpheres(Stage::Begin, Pass::Begin, "begin_substep.comp");

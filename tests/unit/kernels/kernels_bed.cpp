@@ -44,8 +44,8 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
     parameters.wallMin = vec4(-100, -100, -100, 0);
     parameters.wallMax = vec4(100, 100, 100, 0);
     parameters.substepRatio = 1;
-    for (auto* column : {&positionLow, &angularVelocity, &velocityBefore, &deltaVelocity, &deltaOmega, &heldVelocity,
-                         &heldSpin, &acceleration, &listReference, &sortScratch_})
+    for (auto* column : {&positionLow, &angularVelocity, &velocityBefore, &deltaVelocity, &deltaOmega, &unheldVelocity,
+                         &unheldSpin, &acceleration, &listReference, &sortScratch_})
         column->assign(count, vec4(0));
     velocity.assign(count, vec4(0, 0, 0, 1));
     for (auto* column : {&idAndMaterial, &rankInCell_, &slots_, &carriedCount_, &sortScratchWords_})
@@ -76,8 +76,8 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"velocityBefore", velocityBefore},
                           {"deltaVelocity", deltaVelocity},
                           {"deltaOmega", deltaOmega},
-                          {"heldVelocity", heldVelocity},
-                          {"heldSpin", heldSpin},
+                          {"unheldVelocity", unheldVelocity},
+                          {"unheldSpin", unheldSpin},
                           {"acceleration", acceleration},
                           {"listReference", listReference},
                           {"wallImpulse", wallImpulse},
@@ -152,8 +152,8 @@ void Bed::rebuild() {
 
 void Bed::sortColumns() {
     const Launch how{.parameters = &parameters, .phase = 0, .features = features};
-    for (auto* column : {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore, &heldVelocity,
-                         &heldSpin, &acceleration}) {
+    for (auto* column : {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore, &unheldVelocity,
+                         &unheldSpin, &acceleration}) {
         const Slot slots[] = {{"column", *column}, {"cellOrder", cellOrder_}, {"sortScratch", sortScratch_}};
         launch("sort_vectors", slots, how);
         launch("copy_vectors", slots, how);
@@ -196,6 +196,26 @@ uint Bed::slotOf(uint id) const {
     for (uint slot = 0; slot < count; ++slot)
         if ((idAndMaterial[slot] & idMask) == id) return slot;
     throw std::out_of_range("id");
+}
+
+vec3 Bed::heldVelocity(uint slot) const {
+    return unheldVelocity[slot].w != 0 ? vec3(velocity[slot] - unheldVelocity[slot]) : vec3(0);
+}
+
+vec3 Bed::heldSpin(uint slot) const {
+    return unheldVelocity[slot].w != 0 ? vec3(angularVelocity[slot] - unheldSpin[slot]) : vec3(0);
+}
+
+void Bed::setVelocity(uint id, vec3 to) {
+    const vec4 change(to - velocityOf(id), 0);
+    velocity[slotOf(id)] += change;
+    unheldVelocity[slotOf(id)] += change;
+}
+
+void Bed::setSpin(uint id, vec3 to) {
+    const vec4 change(to - spinOf(id), 0);
+    angularVelocity[slotOf(id)] += change;
+    unheldSpin[slotOf(id)] += change;
 }
 
 float Bed::radiusOf(uint id) const {
@@ -285,7 +305,7 @@ vec3 Bed::rememberedTorque(uint pair) const {
 
 void Bed::remember(uint pair, vec3 value, vec3 torque) {
     const uint at = present() + pair;
-    contactX[at] = value.x;
+    contactX[at] = value.x == 0 && value != vec3(0) && (features & Feature::BALANCED) != 0 ? LEAST_HELD : value.x;
     contactY[at] = value.y;
     contactZ[at] = value.z;
     torqueX[at] = torque.x;

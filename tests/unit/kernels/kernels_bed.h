@@ -36,8 +36,12 @@ struct Bed {
     vec3 spinOf(uint id) const { return vec3(angularVelocity[slotOf(id)]); }
     void setMass(uint id, float mass) { velocity[slotOf(id)].w = 1 / mass; }
     void setPlace(uint id, vec3 to) { position[slotOf(id)] = vec4(to, position[slotOf(id)].w); }
-    void setVelocity(uint id, vec3 to) { velocity[slotOf(id)] = vec4(to, velocity[slotOf(id)].w); }
-    void setSpin(uint id, vec3 to) { angularVelocity[slotOf(id)] = vec4(to, 0); }
+    // The changes of a sphere's velocity and spin by the impulses that its contacts hold.
+    vec3 heldVelocity(uint slot) const;
+    vec3 heldSpin(uint slot) const;
+    // A sphere keeps what its contacts hold.
+    void setVelocity(uint id, vec3 to);
+    void setSpin(uint id, vec3 to);
 
     vec3 normal(uint a, uint b) const;  // from b to a
     vec3 slip(uint a, uint b) const;    // tangential velocity of the surface of `a` relative to the surface of `b`
@@ -75,7 +79,7 @@ struct Bed {
     unsigned lanes = 1;
     layout::Parameters parameters{};
     std::vector<vec4> position, positionLow, velocity, angularVelocity, velocityBefore, deltaVelocity, deltaOmega;
-    std::vector<vec4> heldVelocity, heldSpin, acceleration, listReference, wallImpulse, wallTorque;
+    std::vector<vec4> unheldVelocity, unheldSpin, acceleration, listReference, wallImpulse, wallTorque;
     std::vector<uint> idAndMaterial;
     std::vector<layout::ContactParams> contactParams = std::vector<layout::ContactParams>(1);
     std::vector<layout::Obstacle> obstacles = std::vector<layout::Obstacle>(2);

@@ -162,7 +162,7 @@ TEST(KernelsAsCpp, SphereThatLeavesTheWallForgetsIt) {
     bed.setVelocity(0, {0, 0, 1});
     bed.substep();
     EXPECT_EQ(bed.wallImpulse[floorRow].w, 0);
-    EXPECT_EQ(vec3(bed.heldVelocity[0]), vec3(0));
+    EXPECT_EQ(bed.heldVelocity(0), vec3(0));
     EXPECT_NEAR(bed.velocityOf(0).z, 1 - 9.81F * h, 1e-6F);
 }
 
