@@ -24,6 +24,7 @@ BUFFER(readonly, uint, counters)
 // zero, w too: most spheres at rest do not write it, and read w alone.
 #define MEAN_OVER 8.0f
 #define LEAST_MEAN 0.25f
+#define MORE_THAN_FALL 1.001f  // a square: a free fall has errors of rounding
 #define LARGEST_SQUARE 1.0e38f
 
 LANE_KERNEL(params.spheres) {
@@ -51,7 +52,8 @@ LANE_KERNEL(params.spheres) {
     real3 now = real3(mean) + (change - real3(mean)) * (1.0f / MEAN_OVER);
     real squared = dot3(now, now);
     float least = params.gravityChange * params.gravityChange;
-    mask lasts = dot3(change, change) > least || (accelerated && squared > least * (LEAST_MEAN * LEAST_MEAN));
+    mask begins = dot3(change, change) > least * MORE_THAN_FALL;
+    mask lasts = begins || (accelerated && squared > least * (LEAST_MEAN * LEAST_MEAN));
     mask changes = awake && (lasts || accelerated);
     if (anyLane(changes)) {
         real4 row = real4(select(lasts, now, nothing), select(lasts, real(1.0f), real(0.0f)));

@@ -338,7 +338,7 @@ LANE_KERNEL(params.spheres) {
     sphereRadius = radiusOf(x);
     inverseMass = inverseMassOf(v);
     sphereVelocity = real3(v);
-    sphereSpin = real3(0.0f, 0.0f, 0.0f);
+    unheldTurn = sphereSpin = real3(0.0f, 0.0f, 0.0f);
     real pairsHeld = heldPairs(parts);
     partsBefore = parts - pairsHeld;
     solveWalls(invocation);
@@ -348,8 +348,8 @@ LANE_KERNEL(params.spheres) {
     mask isFree = heldNow == 0.0f;
     mask changes = sphereAwake && (touchesWalls || partsBefore != 0.0f);
     if (anyLane(changes)) {
-        // The difference of velocities has their rounding. It must not stay as a thrust, so the sums of the walls'
-        // impulses replace it where they are all that the sphere holds.
+        // The difference of velocities has their rounding. It must not add up to a thrust, so the sums of the walls'
+        // impulses replace it where the sphere holds nothing else.
         mask byWallsAlone = pairsHeld == 0.0f;
         unheld = select(byWallsAlone, sphereVelocity - heldByWalls, unheld);
         SET_ROW(changes, unheldVelocity, invocation, real4(unheld, heldNow), ROW(unheldVelocity, invocation))

@@ -10,6 +10,7 @@ BUFFER(readonly, vec4, angularVelocity)
 BUFFER(restrict, vec4, unheldVelocity)
 BUFFER(restrict, vec4, unheldSpin)
 BUFFER(restrict, vec4, acceleration)
+BUFFER(readonly, uint, idAndMaterial)
 BUFFER(restrict, vec4, wallImpulse)
 BUFFER(restrict, vec4, wallTorque)
 
@@ -26,7 +27,8 @@ KERNEL(params.spheres) {
     unheldVelocity[invocation] = withScaledRest(velocity[invocation], unheldVelocity[invocation]);
     acceleration[invocation] = scaled(acceleration[invocation]);
     if (HAS(FRICTION)) unheldSpin[invocation] = withScaledRest(angularVelocity[invocation], unheldSpin[invocation]);
-    for (uint k = invocation * params.maxWallHistory; k < (invocation + 1u) * params.maxWallHistory; ++k) {
+    uint first = idOf(idAndMaterial[invocation]) * params.maxWallHistory;
+    for (uint k = first; k < first + params.maxWallHistory; ++k) {
         wallImpulse[k] = scaled(wallImpulse[k]);
         if (HAS(FRICTION)) wallTorque[k] = scaled(wallTorque[k]);
     }

@@ -107,7 +107,8 @@ KERNEL(params.spheres) {
     // The velocity before the substep is zero too: neighbours bounce off a sphere at rest.
     velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, u.w);
     velocity[invocation] = sleepToggled(withXyz(v, vec3(0.0f, 0.0f, 0.0f)));
-    // The sphere keeps what it holds, without its velocity and its spin.
+    // The sphere keeps the impulses that it holds, without its velocity and its spin. If it holds none, its rows become
+    // zero, to which contacts add while it sleeps.
     bool holds = false;
     if (HAS(BALANCED)) {
         vec4 unheld = unheldVelocity[invocation];

@@ -76,12 +76,15 @@ RARE void expectPairs(uint first, uint count) {
 
 void visitPairs(slots a, slots b, uintRow at) {
     memory = at + remembered;
-    real x = ROW(contactX, memory);  // most listed pairs hold nothing
+    real x = ROW(contactX, memory);
     heldImpulse = real3(x, real(0.0f), real(0.0f));
-    if (anyLane(x != 0.0f)) heldImpulse = real3(x, ROW(contactY, memory), ROW(contactZ, memory));
+    if (anyLane(x != 0.0f)) {
+        real y = ROW(contactY, memory);
+        real z = ROW(contactZ, memory);
+        heldImpulse = real3(UNMARKED_X(x, y, z), y, z);
+    }
     if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
-    mask holds = heldImpulse.y != 0.0f || heldImpulse.z != 0.0f;
-    SET_ALL(contactX, memory, select(holds && heldImpulse.x == 0.0f, real(LEAST_HELD), heldImpulse.x))
+    SET_ALL(contactX, memory, MARKED_X(heldImpulse.x, heldImpulse.y, heldImpulse.z))
     SET_ALL(contactY, memory, heldImpulse.y)
     SET_ALL(contactZ, memory, heldImpulse.z)
     if (HAS(FRICTION)) {

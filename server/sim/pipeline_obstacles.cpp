@@ -43,6 +43,7 @@ void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
     const std::uint32_t most = std::min(plan_.maxWallHistory, oldMost);
     const auto slots = read<std::uint32_t>(Array::SlotOf);
     const auto slotOfHandle = [&](std::size_t handle) { return slots.empty() ? handle : std::size_t{slots[handle]}; };
+    const auto words = read<std::uint32_t>(Array::IdAndMaterial, plan_.spheres);
     const auto position = read<glm::vec4>(Array::Position);
     const auto velocity = read<glm::vec4>(Array::Velocity);
     auto unheld = read<glm::vec4>(Array::UnheldVelocity);
@@ -56,6 +57,8 @@ void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
         for (std::size_t from = 0; from < old.size(); ++from) {
             if (keys[from].w == 0) continue;
             const std::size_t handle = from / oldMost;
+            const std::size_t slot = slotOfHandle(handle);
+            if (slot >= words.size() || (words[slot] & idMask) != handle) continue;  // the sphere has been removed
             const std::size_t k = from % oldMost;
             const auto key = newKey(static_cast<std::uint32_t>(keys[from].w) - 1);
             if (key && k < most) {
@@ -64,7 +67,6 @@ void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
                 if (array != Array::WallTorque) row.w = static_cast<float>(*key + 1);
                 continue;
             }
-            const std::size_t slot = slotOfHandle(handle);
             const float inverseMass = std::abs(velocity[slot].w);
             const glm::vec4 part(glm::vec3(old[from]), 0);
             if (array == Array::WallImpulse && !unheld.empty()) unheld[slot] += part * inverseMass;

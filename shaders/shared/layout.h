@@ -244,5 +244,10 @@ struct SphereStatistics {
 // are no smaller.
 #define CARRIED_MOST 16u
 
-// In `balanced`, the x of a held impulse whose x would be zero (N s). So x alone tells whether a contact holds one.
+// An element of `contactX` in `balanced` is not zero if the contact holds an impulse, so that the others, most of those
+// listed, need no y and z. It is LEAST_HELD (N s), a mark and no impulse, if the held impulse has no x. No functions:
+// glslang would need minutes.
 #define LEAST_HELD 1.0e-30f
+#define HAS_NO_X(x, y, z) (((y) != 0.0f || (z) != 0.0f) && abs(x) <= LEAST_HELD)
+#define MARKED_X(x, y, z) select(HAS_NO_X(x, y, z), (x) - (x) + LEAST_HELD, x)
+#define UNMARKED_X(x, y, z) select(HAS_NO_X(x, y, z), (x) - (x), x)

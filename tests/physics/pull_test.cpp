@@ -105,29 +105,39 @@ TEST_P(Pulls, GivesTheMomentumOfTheForceThatItReports) {
     }
 }
 
-// A push and a pull give a sphere on a smooth floor their momentum once: its contact goes on to hold its weight alone.
-TEST_P(Pulls, LeaveTheHeldImpulsesOfARestingSphere) {
-    scene::Scene scene = fineStepBox(2);
-    scene.step = 1.0 / 1920;
-    scene.quality.model = GetParam();
-    setRestitution(scene, 0.3);
-    addSphere(scene, {0, 0, -1 + radius}, radius);
-    const auto simulation = simulate(scene);
-    run(*simulation, 1);
-    const auto velocity = [&] { return velocityOf(simulation->snapshot(), 0); };
-    ASSERT_LT(glm::length(velocity()), 1e-3);
-    ASSERT_TRUE(simulation->apply(sim::Push{.target = 0U, .impulse = mass * glm::dvec3(0.3, 0.1, 0)}));
-    for (int k = 0; k < 10; ++k) {
-        run(*simulation, scene.step);
-        EXPECT_LT(glm::length(velocity() - glm::dvec3(0.3, 0.1, 0)), 1e-3) << "substep " << k;
+// Pushes and pulls give spheres on a smooth floor, one or two on each other, their momentum once: the contacts go on to
+// hold the weight alone.
+TEST_P(Pulls, LeaveTheHeldImpulsesOfRestingSpheres) {
+    for (const std::uint32_t count : {1U, 2U}) {
+        scene::Scene scene = fineStepBox(2);
+        scene.step = 1.0 / 1920;
+        scene.quality.model = GetParam();
+        setRestitution(scene, 0.3);
+        const auto height = [](std::uint32_t id) { return -1 + radius * (2 * id + 1); };
+        for (std::uint32_t id = 0; id < count; ++id) measure::addSphere(scene, {0, 0, height(id)}, radius);
+        const auto simulation = simulate(scene);
+        run(*simulation, 0.5);
+        const auto velocity = [&](std::uint32_t id) { return velocityOf(simulation->snapshot(), id); };
+        for (std::uint32_t id = 0; id < count; ++id) {
+            ASSERT_LT(glm::length(velocity(id)), 0.02);
+            ASSERT_TRUE(simulation->apply(sim::Push{.target = id, .impulse = mass * glm::dvec3(0.3, 0.1, 0)}));
+        }
+        for (int k = 0; k < 10; ++k) {
+            run(*simulation, scene.step);
+            for (std::uint32_t id = 0; id < count; ++id)
+                EXPECT_LT(glm::length(velocity(id) - glm::dvec3(0.3, 0.1, 0)), 0.02) << "substep " << k;
+        }
+        std::vector<glm::dvec3> momentum;
+        for (std::uint32_t id = 0; id < count; ++id) momentum.push_back(mass * velocity(id));
+        for (int k = 0; k < 100; ++k) {
+            for (std::uint32_t id = 0; id < count; ++id)
+                momentum[id] +=
+                    scene.step * pull(*simulation, {.session = id + 1, .sphere = id, .point = {0.4, 0, height(id)}});
+            run(*simulation, scene.step);
+        }
+        for (std::uint32_t id = 0; id < count; ++id)
+            EXPECT_LT(glm::length(mass * velocity(id) - momentum[id]), 0.01 * glm::length(momentum[id])) << count;
     }
-    glm::dvec3 momentum = mass * velocity();
-    for (int k = 0; k < 100; ++k) {
-        const glm::dvec3 to = glm::dvec3(0.4, 0, -1 + radius);
-        momentum += scene.step * pull(*simulation, {.session = 1, .sphere = 0, .point = to});
-        run(*simulation, scene.step);
-    }
-    EXPECT_LT(glm::length(mass * velocity() - momentum), 0.01 * glm::length(momentum));
 }
 
 TEST_P(Pulls, EndWithReleaseAndMoveWithTheSession) {

@@ -121,9 +121,9 @@ TEST_P(RestingBedIn, TetrahedraDoNotCreep) {
 // the mean of its box by more than all others creep, so the bound holds for the mean over boxes.
 TEST_P(RestingBedIn, DoesNotCreepInATiltedBox) {
     constexpr double angle = 10 * std::numbers::pi / 180;
-    constexpr std::uint64_t seeds = 8;
+    constexpr std::uint64_t boxes = 8;
     double mean = 0;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= boxes; ++seed) {
         SCOPED_TRACE(seed);
         const scene::Scene scene = bed({.count = 600, .depth = 8, .seed = seed, .pitch = 2.2});
         const auto simulation = simulate(inFrame(scene, GetParam()));
@@ -139,7 +139,7 @@ TEST_P(RestingBedIn, DoesNotCreepInATiltedBox) {
             moved += glm::distance(positionOf(after, id), positionOf(before, id)) / after.count();
         const double speed = moved / (3 * GetParam().scale);
         EXPECT_LT(speed, 2 * creep) << "mean over the spheres";
-        mean += speed / seeds;
+        mean += speed / boxes;
         RecordProperty("creepSeed" + std::to_string(seed), figure(speed));
     }
     EXPECT_LT(mean, 0.5 * creep) << "mean over the boxes";

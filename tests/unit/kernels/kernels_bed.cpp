@@ -295,7 +295,8 @@ uint Bed::present() const {
 
 vec3 Bed::remembered(uint pair) const {
     const uint at = present() + pair;
-    return {contactX[at], contactY[at], contactZ[at]};
+    const bool marked = (features & Feature::BALANCED) != 0 && contactX[at] == LEAST_HELD;
+    return {marked ? 0 : contactX[at], contactY[at], contactZ[at]};
 }
 
 vec3 Bed::rememberedTorque(uint pair) const {
