@@ -19,12 +19,8 @@ BUFFER(readonly, uint, counters)
 #include "shared/drift.h"
 
 // A sphere's own acceleration is a running mean over this many substeps. The value of a single substep makes an elastic
-// gas under gravity lose energy. The mean matters only where it exceeds the change of velocity by gravity. So it begins
-// with a greater change than that, and ends after smaller ones at this part of it. Until it begins again its row is
-// zero, w too: most spheres at rest do not write it, and read w alone.
+// gas under gravity lose energy.
 #define MEAN_OVER 8.0f
-#define LEAST_MEAN 0.25f
-#define MORE_THAN_FALL 1.001f  // a square: a free fall has errors of rounding
 #define LARGEST_SQUARE 1.0e38f
 
 LANE_KERNEL(params.spheres) {
@@ -45,21 +41,10 @@ LANE_KERNEL(params.spheres) {
         pull = a * params.substep;
         fall = withDrag(a, real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
     }
-    real4 mean = real4(0.0f, 0.0f, 0.0f, 0.0f);
-    mask accelerated = MEMBER(acceleration, invocation, w) != 0.0f;
-    if (anyLane(accelerated)) mean = ROW(acceleration, invocation);
-    real3 change = held + pull;
-    real3 now = real3(mean) + (change - real3(mean)) * (1.0f / MEAN_OVER);
-    real squared = dot3(now, now);
-    float least = params.gravityChange * params.gravityChange;
-    mask begins = dot3(change, change) > least * MORE_THAN_FALL;
-    mask lasts = begins || (accelerated && squared > least * (LEAST_MEAN * LEAST_MEAN));
-    mask changes = awake && (lasts || accelerated);
-    if (anyLane(changes)) {
-        real4 row = real4(select(lasts, now, nothing), select(lasts, real(1.0f), real(0.0f)));
-        SET_ROW(changes, acceleration, invocation, row, mean)
-    }
-    squared = max(squared, real(least));
+    real4 mean = ROW(acceleration, invocation);
+    real3 now = real3(mean) + (held + pull - real3(mean)) * (1.0f / MEAN_OVER);
+    SET_ROW(awake, acceleration, invocation, real4(now, mean.w), mean)
+    real squared = max(dot3(now, now), real(params.gravityChange * params.gravityChange));
     if (HAS(FIELDS)) squared = max(squared, dot3(pull, pull));
     SET_ROW(awake, velocityBefore, invocation, real4(real3(v), squared), v)
     precise real3 unheldNow = real3(v) + fall;

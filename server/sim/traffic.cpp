@@ -23,7 +23,7 @@ constexpr Use uses[] = {
     {"begin_substep.comp", Array::VelocityBefore, Of::None, Of::Spheres},
     {"begin_substep.comp", Array::UnheldVelocity, Of::Spheres, Of::Spheres},
     {"begin_substep.comp", Array::UnheldSpin, Of::Spheres, Of::Spheres},
-    {"begin_substep.comp", Array::Acceleration, Of::Spheres, Of::None, 0.25},
+    {"begin_substep.comp", Array::Acceleration, Of::Spheres, Of::Spheres},
     {"solve_contacts.comp", Array::Position, Of::Visits, Of::Pushes},
     {"solve_contacts.comp", Array::Velocity, Of::Contacts, Of::Contacts},
     {"solve_contacts.comp", Array::AngularVelocity, Of::Contacts, Of::Contacts},

@@ -117,8 +117,8 @@ TEST_P(RestingBedIn, TetrahedraDoNotCreep) {
     }
 }
 
-// A box of 600 spheres, which gravity tilts by 10 degrees after 3 s. One sphere that still finds another place moves
-// the mean of its box by more than all others creep, so the bound holds for the mean over boxes.
+// A box of 600 spheres, which gravity tilts by 10 degrees after 3 s. One sphere that still finds another place can move
+// the mean of its box by more than all others creep: the mean over boxes is bounded, too.
 TEST_P(RestingBedIn, DoesNotCreepInATiltedBox) {
     constexpr double angle = 10 * std::numbers::pi / 180;
     constexpr std::uint64_t boxes = 8;
@@ -138,7 +138,7 @@ TEST_P(RestingBedIn, DoesNotCreepInATiltedBox) {
         for (std::uint32_t id = 0; id < after.count(); ++id)
             moved += glm::distance(positionOf(after, id), positionOf(before, id)) / after.count();
         const double speed = moved / (3 * GetParam().scale);
-        EXPECT_LT(speed, 2 * creep) << "mean over the spheres";
+        EXPECT_LT(speed, creep) << "mean over the spheres";
         mean += speed / boxes;
         RecordProperty("creepSeed" + std::to_string(seed), figure(speed));
     }

@@ -83,10 +83,10 @@ TEST(KernelsAsCpp, ApproachesBelowTwiceTheAccelerationDoNotBounce) {
     }
 }
 
-// The mean of a sphere's changes of velocity follows lasting changes that exceed the one by gravity.
+// The mean of a sphere's changes of velocity follows them over eight substeps. It counts if it exceeds gravity.
 TEST(KernelsAsCpp, OwnAccelerationIsAMeanOverSubsteps) {
     Bed bed({vec4(0, 0, 0, 0.5F)}, Feature::BALANCED | Feature::CONTACTS | Feature::GRAVITY);
-    float fall = 9.81F / 480;
+    const float fall = 9.81F / 480;
     bed.parameters.gravity = vec4(0, 0, -9.81F, 0);
     bed.parameters.gravityChange = fall;
     // Begins substeps in which gravity and a held impulse change the velocity by `change` falls each.
@@ -99,24 +99,15 @@ TEST(KernelsAsCpp, OwnAccelerationIsAMeanOverSubsteps) {
         return std::sqrt(bed.velocityBefore[0].w) / fall;
     };
     EXPECT_NEAR(meanAfter(40, 0), 1, 1e-4F);
-    EXPECT_EQ(bed.acceleration[0], vec4(0)) << "of a sphere at rest";
-    for (const float gravity : {9.81F, 3.71F, 1.62F}) {
-        fall = gravity / 480;
-        bed.parameters.gravity.z = -gravity;
-        bed.parameters.gravityChange = fall;
-        EXPECT_NEAR(meanAfter(40, 1), 1, 1e-4F);
-        EXPECT_EQ(bed.acceleration[0], vec4(0)) << "in free fall";
-    }
-    EXPECT_NEAR(meanAfter(8, 3), 3 * (1 - std::pow(0.875F, 8)), 0.2F);
-    EXPECT_NEAR(meanAfter(40, 3), 3, 0.02F);
-    EXPECT_NEAR(meanAfter(4, 0), 3 * std::pow(0.875F, 4), 0.02F);
-    EXPECT_NEAR(meanAfter(40, 0), 1, 1e-4F);
-    EXPECT_EQ(bed.acceleration[0], vec4(0)) << "after the mean has fallen";
+    EXPECT_NEAR(meanAfter(8, 3), 3 * (1 - std::pow(0.875F, 8)), 1e-3F);
+    EXPECT_NEAR(meanAfter(60, 3), 3, 2e-3F);
+    EXPECT_NEAR(meanAfter(4, 0), 3 * std::pow(0.875F, 4), 2e-3F);
+    EXPECT_NEAR(meanAfter(60, 1), 1, 2e-3F) << "in free fall";
     for (int substep = 0; substep < 40; ++substep) {
         meanAfter(1, 3);
         meanAfter(1, 0);
     }
-    EXPECT_NEAR(meanAfter(1, 3), 1.5F, 0.2F) << "every other substep";
+    EXPECT_NEAR(meanAfter(1, 3), 1.6F, 0.02F) << "every other substep";
 }
 
 // Nor does an approach below five times the change of velocity that the held impulse makes.
