@@ -58,7 +58,8 @@ void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
             if (keys[from].w == 0) continue;
             const std::size_t handle = from / oldMost;
             const std::size_t slot = slotOfHandle(handle);
-            if (slot >= words.size() || (words[slot] & idMask) != handle) continue;  // the sphere has been removed
+            // The rows of a removed sphere stay. Its slot may be another sphere's by now.
+            if (slot >= words.size() || (words[slot] & idMask) != handle) continue;
             const std::size_t k = from % oldMost;
             const auto key = newKey(static_cast<std::uint32_t>(keys[from].w) - 1);
             if (key && k < most) {

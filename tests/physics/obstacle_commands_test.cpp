@@ -144,27 +144,6 @@ TEST_P(ObstacleCommands, KeepWhatOtherObstaclesHold) {
     EXPECT_EQ(simulation->scene().obstacles.size(), 1U);
 }
 
-// A sphere rests on an obstacle and is removed, then the obstacle. The spheres that are left notice neither.
-TEST_P(ObstacleCommands, ForgetWhatRemovedSpheresHeld) {
-    scene::Scene scene = fineStepBox(2);
-    scene.quality = {.model = GetParam(), .substeps = GetParam() == Model::Accurate ? 100U : 1U};
-    setFriction(scene, 0.4);
-    for (int k = 0; k < 3; ++k) addSphere(scene, {-0.5 + 0.5 * k, 0.5, -1 + radius}, radius);
-    scene.obstacles.push_back(obstacleFrom(R"({"box":{"min":[-1,-1,-1],"max":[1,-0.5,-0.5]}})"));
-    addSphere(scene, {0, -0.75, -0.5 + radius}, radius);
-    const auto simulation = simulate(scene);
-    run(*simulation, 0.5);
-    ASSERT_TRUE(simulation->apply(sim::Remove{.spheres = std::vector<std::uint64_t>{3}}));
-    ASSERT_TRUE(simulation->apply(removed(0)));
-    const sim::State start = simulation->snapshot();
-    run(*simulation, 0.1);
-    const sim::State end = simulation->snapshot();
-    for (std::uint32_t id = 0; id < 3; ++id) {
-        EXPECT_LT(glm::length(glm::vec3(end.velocity[id])), 2e-3) << id;
-        EXPECT_LT(glm::distance(glm::vec3(end.position[id]), glm::vec3(start.position[id])), 1e-4) << id;
-    }
-}
-
 TEST_P(ObstacleCommands, TakeTheFloorAway) {
     scene::Scene scene = fineStepSpace(4);
     scene.quality = {.model = GetParam(), .substeps = GetParam() == Model::Accurate ? 50U : 1U};
