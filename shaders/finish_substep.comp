@@ -306,7 +306,7 @@ void solveWalls(uintRow at) {
         sphereSpin = real3(ROW(angularVelocity, at));
         unheldTurn = real3(ROW(unheldSpin, at));
     }
-    if (!HAS(WALLS) && !HAS(OBSTACLES)) return;
+    if (!HAS(WALLS) && !HAS(OBSTACLES)) return;  // the last surface has gone
     uints word = ROW(idAndMaterial, at);
     sphereId = idOf(word);
     sphereMaterial = HAS(MATERIALS) ? materialOf(word) : uints(params.material);

@@ -19,14 +19,14 @@ vec4 scaled(vec4 row) {
 }
 
 // `whole`: a velocity or a spin. `unheld`: the same without held impulses.
-vec4 withScaledRest(vec4 whole, vec4 unheld) {
+vec4 withHeldScaled(vec4 whole, vec4 unheld) {
     return withXyz(unheld, vec3(whole) - (vec3(whole) - vec3(unheld)) * params.substepRatio);
 }
 
 KERNEL(params.spheres) {
-    unheldVelocity[invocation] = withScaledRest(velocity[invocation], unheldVelocity[invocation]);
+    unheldVelocity[invocation] = withHeldScaled(velocity[invocation], unheldVelocity[invocation]);
     acceleration[invocation] = scaled(acceleration[invocation]);
-    if (HAS(FRICTION)) unheldSpin[invocation] = withScaledRest(angularVelocity[invocation], unheldSpin[invocation]);
+    if (HAS(FRICTION)) unheldSpin[invocation] = withHeldScaled(angularVelocity[invocation], unheldSpin[invocation]);
     uint first = idOf(idAndMaterial[invocation]) * params.maxWallHistory;
     for (uint k = first; k < first + params.maxWallHistory; ++k) {
         wallImpulse[k] = scaled(wallImpulse[k]);

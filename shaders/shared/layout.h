@@ -246,7 +246,7 @@ struct SphereStatistics {
 
 // An element of `contactX` in `balanced` is not zero if the contact holds an impulse, so that the others, most of those
 // listed, need no y and z. It is LEAST_HELD (N s), a mark and no impulse, if the held impulse has no x. No functions:
-// glslang would need minutes.
+// glslang would need minutes. x - x is a zero of the type of x, which may be one number or one per lane.
 #define LEAST_HELD 1.0e-30f
 #define HAS_NO_X(x, y, z) (((y) != 0.0f || (z) != 0.0f) && abs(x) <= LEAST_HELD)
 #define MARKED_X(x, y, z) select(HAS_NO_X(x, y, z), (x) - (x) + LEAST_HELD, x)
