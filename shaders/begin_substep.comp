@@ -12,11 +12,13 @@ BUFFER(restrict, vec4, angularVelocity)
 BUFFER(writeonly, vec4, velocityBefore)
 BUFFER(restrict, vec4, unheldVelocity)
 BUFFER(restrict, vec4, unheldSpin)
-BUFFER(restrict, vec4, acceleration)
+BUFFER(restrict, uint, accelerationXz)
+BUFFER(restrict, uint, accelerationYz)
 BUFFER(coherent, uint, bundles)
 BUFFER(readonly, uint, counters)
 
 #include "shared/drift.h"
+#include "shared/own_acceleration.h"
 
 // A sphere's own acceleration is a running mean over this many substeps. The value of a single substep makes an elastic
 // gas under gravity lose energy.
@@ -41,9 +43,12 @@ LANE_KERNEL(params.spheres) {
         pull = a * params.substep;
         fall = withDrag(a, real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
     }
-    real4 mean = ROW(acceleration, invocation);
-    real3 now = real3(mean) + (held + pull - real3(mean)) * (1.0f / MEAN_OVER);
-    SET_ROW(awake, acceleration, invocation, real4(now, mean.w), mean)
+    uints xz = ROW(accelerationXz, invocation);
+    uints yz = ROW(accelerationYz, invocation);
+    real3 mean = ownAcceleration(xz, yz);
+    real3 now = mean + (held + pull - mean) * (1.0f / MEAN_OVER);
+    SET_ROW(awake, accelerationXz, invocation, accelerationXzOf(now), xz)
+    SET_ROW(awake, accelerationYz, invocation, accelerationYzOf(now), yz)
     real squared = max(dot3(now, now), real(params.gravityChange * params.gravityChange));
     if (HAS(FIELDS)) squared = max(squared, dot3(pull, pull));
     SET_ROW(awake, velocityBefore, invocation, real4(real3(v), squared), v)

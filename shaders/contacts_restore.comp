@@ -7,7 +7,7 @@ PARAMETERS
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, bundles)
-BUFFER(readonly, uvec2, pairs)
+BUFFER(restrict, uvec2, pairs)
 BUFFER(restrict, float, contactX)
 BUFFER(restrict, float, contactY)
 BUFFER(restrict, float, contactZ)
@@ -52,8 +52,10 @@ void clear(uint to) {
     }
 }
 
-uint ownerOf(uvec2 pair) {
-    return idOf(idAndMaterial[firstOwnsContact(pair.x, pair.y) ? pair.x : pair.y]);
+uint ownerOf(uint pair) {
+    uint a = pairs[pair].x;
+    uint b = SECOND_OF(pairs[pair]);
+    return idOf(idAndMaterial[firstOwnsContact(a, b) ? a : b]);
 }
 
 BUNDLE_KERNEL(params.bundles) {
@@ -64,17 +66,19 @@ BUNDLE_KERNEL(params.bundles) {
     restored = 0u;
     for (uint k = firstPair(bundle) + THREAD; k < endOfPairs(bundle); k += THREADS) {
         clear(present + k);
-        PREFETCH(carried[ownerOf(pairs[min(k + PAIRS_AHEAD, endOfPairs(bundle) - 1u)]) * CARRIED_MOST])
-        uvec2 pair = pairs[k];
-        bool first = firstOwnsContact(pair.x, pair.y);
-        uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
+        PREFETCH(carried[ownerOf(min(k + PAIRS_AHEAD, endOfPairs(bundle) - 1u)) * CARRIED_MOST])
+        uint a = pairs[k].x;
+        uint b = pairs[k].y;  // it has no PAIR_REMEMBERS yet
+        bool first = firstOwnsContact(a, b);
+        uint owner = idOf(idAndMaterial[first ? a : b]);
         uint count = carriedBy(owner);
         if (count == 0u) continue;
-        uint partner = idOf(idAndMaterial[first ? pair.y : pair.x]);
+        uint partner = idOf(idAndMaterial[first ? b : a]);
         for (uint place = owner * CARRIED_MOST; place < owner * CARRIED_MOST + count; ++place) {
             uvec2 one = carried[place];
             if ((one.x & ~FIRST_OWNS) != partner) continue;
             restore(present + k, previous + one.y, first == (one.x >= FIRST_OWNS) ? 1.0f : -1.0f);
+            pairs[k].y = b | PAIR_REMEMBERS;
             break;
         }
     }

@@ -44,6 +44,6 @@ BUNDLE_KERNEL(params.bundles) {
         if (FIRST_THREAD) visitBundle(invocation, firstPair(invocation));
     } else if (listedPairs(invocation) > 0u) {
         for (uint k = firstPair(invocation) + THREAD; k < endOfPairs(invocation); k += THREADS)
-            visitPair(pairs[k].x, pairs[k].y);
+            visitPair(pairs[k].x, SECOND_OF(pairs[k]));
     }
 }

@@ -11,14 +11,9 @@ BUFFER(restrict, float, torqueY)
 BUFFER(restrict, float, torqueZ)
 
 KERNEL(2u * params.pairCapacity) {
-    float y = contactY[invocation];
-    float z = contactZ[invocation];
-    float x = UNMARKED_X(contactX[invocation], y, z) * params.substepRatio;
-    y = y * params.substepRatio;
-    z = z * params.substepRatio;
-    contactX[invocation] = MARKED_X(x, y, z);
-    contactY[invocation] = y;
-    contactZ[invocation] = z;
+    contactX[invocation] = contactX[invocation] * params.substepRatio;
+    contactY[invocation] = contactY[invocation] * params.substepRatio;
+    contactZ[invocation] = contactZ[invocation] * params.substepRatio;
     if (!HAS(FRICTION)) return;
     torqueX[invocation] = torqueX[invocation] * params.substepRatio;
     torqueY[invocation] = torqueY[invocation] * params.substepRatio;

@@ -4,12 +4,14 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
+#include "shared/own_acceleration.h"
 
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, angularVelocity)
 BUFFER(restrict, vec4, unheldVelocity)
 BUFFER(restrict, vec4, unheldSpin)
-BUFFER(restrict, vec4, acceleration)
+BUFFER(restrict, uint, accelerationXz)
+BUFFER(restrict, uint, accelerationYz)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(restrict, vec4, wallImpulse)
 BUFFER(restrict, vec4, wallTorque)
@@ -25,7 +27,9 @@ vec4 withHeldScaled(vec4 whole, vec4 unheld) {
 
 KERNEL(params.spheres) {
     unheldVelocity[invocation] = withHeldScaled(velocity[invocation], unheldVelocity[invocation]);
-    acceleration[invocation] = scaled(acceleration[invocation]);
+    vec3 own = ownAcceleration(accelerationXz[invocation], accelerationYz[invocation]) * params.substepRatio;
+    accelerationXz[invocation] = accelerationXzOf(own);
+    accelerationYz[invocation] = accelerationYzOf(own);
     if (HAS(FRICTION)) unheldSpin[invocation] = withHeldScaled(angularVelocity[invocation], unheldSpin[invocation]);
     uint first = idOf(idAndMaterial[invocation]) * params.maxWallHistory;
     for (uint k = first; k < first + params.maxWallHistory; ++k) {

@@ -17,7 +17,7 @@ BUFFER(coherent, vec4, unheldVelocity)
 BUFFER(coherent, vec4, unheldSpin)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(readonly, uvec2, pairs)
+BUFFER(restrict, uvec2, pairs)
 BUFFER(restrict, uint, bundles)
 BUFFER(restrict, float, contactX)
 BUFFER(restrict, float, contactY)
@@ -63,28 +63,33 @@ bool expectsPairs() {
 
 RARE void expectPairs(uint first, uint count) {
     for (uint k = first; k < first + count; ++k) {
-        uvec2 pair = pairs[min(k, params.pairCapacity - 1u)];
-        PREFETCH(position[pair.x])
-        PREFETCH(position[pair.y])
-        PREFETCH(velocity[pair.x])
-        PREFETCH(velocity[pair.y])
+        uint a = pairs[k].x;
+        uint b = SECOND_OF(pairs[k]);
+        PREFETCH(position[a])
+        PREFETCH(position[b])
+        PREFETCH(velocity[a])
+        PREFETCH(velocity[b])
         if (!HAS(FRICTION)) continue;
-        PREFETCH(angularVelocity[pair.x])
-        PREFETCH(angularVelocity[pair.y])
+        PREFETCH(angularVelocity[a])
+        PREFETCH(angularVelocity[b])
     }
+}
+
+void toggleMemory(uint k) {
+    pairs[k].y = pairs[k].y ^ PAIR_REMEMBERS;
 }
 
 void visitPairs(slots a, slots b, uintRow at) {
     memory = at + remembered;
-    real x = ROW(contactX, memory);
-    heldImpulse = real3(x, real(0.0f), real(0.0f));
-    if (anyLane(x != 0.0f)) {
-        real y = ROW(contactY, memory);
-        real z = ROW(contactZ, memory);
-        heldImpulse = real3(UNMARKED_X(x, y, z), y, z);
+    mask remembers = REMEMBERS(pairs, at);
+    real3 nothing = real3(0.0f, 0.0f, 0.0f);
+    heldImpulse = nothing;
+    if (anyLane(remembers)) {
+        real3 impulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
+        heldImpulse = select(remembers, impulse, nothing);
     }
     if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
-    SET_ALL(contactX, memory, MARKED_X(heldImpulse.x, heldImpulse.y, heldImpulse.z))
+    SET_ALL(contactX, memory, heldImpulse.x)
     SET_ALL(contactY, memory, heldImpulse.y)
     SET_ALL(contactZ, memory, heldImpulse.z)
     if (HAS(FRICTION)) {
@@ -92,6 +97,8 @@ void visitPairs(slots a, slots b, uintRow at) {
         SET_ALL(torqueY, memory, heldTorque.y)
         SET_ALL(torqueZ, memory, heldTorque.z)
     }
+    mask holds = heldImpulse.x != 0.0f || heldImpulse.y != 0.0f || heldImpulse.z != 0.0f;
+    EACH_LANE((holds && !remembers) || (remembers && !holds), toggleMemory, at)
 }
 
 LANE_PAIR_KERNEL

@@ -22,7 +22,7 @@ BUFFER(coherent, vec4, deltaOmega)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uint, bundles)
-BUFFER(readonly, uvec2, pairs)
+BUFFER(restrict, uvec2, pairs)
 BUFFER(restrict, float, contactX)
 BUFFER(restrict, float, contactY)
 BUFFER(restrict, float, contactZ)
@@ -124,11 +124,14 @@ void visitPairs(uint a, uint b, uint at) {
         return;
     }
     uint memory = presentHalf() + at;
-    displacement = vec3(contactX[memory], contactY[memory], contactZ[memory]);
-    vec3 old = displacement;
+    bool remembers = REMEMBERS(pairs, at);
+    displacement = vec3(0.0f, 0.0f, 0.0f);
+    if (remembers) displacement = vec3(contactX[memory], contactY[memory], contactZ[memory]);
     visitPair(a, b);
     if (!touches) displacement = vec3(0.0f, 0.0f, 0.0f);
-    if (!touches && old.x == 0.0f && old.y == 0.0f && old.z == 0.0f) return;
+    bool stays = displacement.x != 0.0f || displacement.y != 0.0f || displacement.z != 0.0f;
+    if (stays != remembers) pairs[at].y = pairs[at].y ^ PAIR_REMEMBERS;
+    if (!stays && !remembers) return;
     contactX[memory] = displacement.x;
     contactY[memory] = displacement.y;
     contactZ[memory] = displacement.z;

@@ -67,7 +67,7 @@ BUNDLE_KERNEL(params.bundles) {
     for (uint part = THREAD; part < BUNDLE_THREADS; part += THREADS) {
         beginSum();
         for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS)
-            visitPair(pairs[k].x, pairs[k].y);
+            visitPair(pairs[k].x, SECOND_OF(pairs[k]));
         partialSums[part] = vec3(contacts, sum, largest);
     }
     BARRIER

@@ -64,7 +64,7 @@ BUNDLE_KERNEL(params.bundles) {
     for (uint part = THREAD; part < BUNDLE_THREADS; part += THREADS) {
         sum = vec4(0.0f, 0.0f, 0.0f, 0.0f);
         for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS)
-            visitPair(pairs[k].x, pairs[k].y);
+            visitPair(pairs[k].x, SECOND_OF(pairs[k]));
         partialSums[part] = sum;
     }
     BARRIER

@@ -56,7 +56,7 @@ BUNDLE_KERNEL(params.bundles) {
         for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS) {
             uint at = presentHalf() + k;
             if (HAS(FRICTION)) displacement = vec3(contactX[at], contactY[at], contactZ[at]);
-            energy += energyOf(pairs[k].x, pairs[k].y);
+            energy += energyOf(pairs[k].x, SECOND_OF(pairs[k]));
         }
         partialSums[part] = energy;
     }

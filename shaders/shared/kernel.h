@@ -36,6 +36,7 @@
 //   SET_ROW(where, array, at, to, old)  Sets the elements of the lanes in `where`. `old`: their present values.
 //   SET_ALL(array, at, to)      Sets the elements of all lanes of a uintRow. Lanes that do not exist must keep theirs.
 //   MEMBER(array, at, member)   A vec4 member of the structs of a buffer, or a component of its vectors.
+//   REMEMBERS(pairs, at)        Whether the pairs of a uintRow have PAIR_REMEMBERS (shared/layout.h).
 //   wholeOf(value)              The whole number of a real from 0 to 2^24.
 //   RARE                        Before a function: keeps it out of the code around its calls.
 //   EACH_LANE(where, function, at)  Calls the function with the number of each lane in `where`.
@@ -115,6 +116,7 @@ layout(location = 0) uniform uint phase;
 #define RAISE_TO(where, word, value)                                                             \
     if (where && word < floatBitsToUint(value)) atomicMax(word, floatBitsToUint(value));
 #define SEEN(word) (word)
+#define REMEMBERS(pairs, at) ((pairs[at].y & PAIR_REMEMBERS) != 0u)
 #define LANE_KERNEL(count) KERNEL(count)
 #define EACH_LANE_WITH(where, flag, function, at) if (where) function(at, flag);
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) if (where) function(number, more, a, b);
@@ -156,15 +158,16 @@ layout(location = 0) uniform uint phase;
         BARRIER                                                                                  \
         uint from = firstPair(bundle);                                                           \
         uint end = endOfPairs(bundle);                                                           \
-        uvec2 next = pairs[min(from + THREAD, params.pairCapacity - 1u)];                        \
+        uvec2 next = uvec2(0u, 0u);                                                              \
+        if (from + THREAD < end) next = pairs[from + THREAD];                                    \
         for (uint batch = 0u; from < end; ++batch) {                                             \
             uint to = batch < BATCHES ? batchEnds[batch] : from + 1u;                            \
             if (from == to) continue;                                                            \
             uvec2 pair = next;                                                                   \
-            next = pairs[min(to + THREAD, params.pairCapacity - 1u)];                            \
+            if (to + THREAD < end) next = pairs[to + THREAD];                                    \
             for (uint k = from + THREAD; k < to; k += uint(PAIR_THREADS)) {                      \
                 if (k >= from + uint(PAIR_THREADS)) pair = pairs[k];                             \
-                visitPairs(pair.x, pair.y, k);                                                   \
+                visitPairs(pair.x, SECOND_OF(pair), k);                                          \
             }                                                                                    \
             from = to;                                                                           \
             BUFFER_BARRIER                                                                       \

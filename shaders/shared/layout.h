@@ -244,10 +244,12 @@ struct SphereStatistics {
 // are no smaller.
 #define CARRIED_MOST 16u
 
-// An element of `contactX` in `balanced` is not zero if the contact holds an impulse, so that the others, most of those
-// listed, need no y and z. It is LEAST_HELD (N s), a mark and no impulse, if the held impulse has no x. No functions:
-// glslang would need minutes. x - x is a zero of the type of x, which may be one number or one per lane.
-#define LEAST_HELD 1.0e-30f
-#define HAS_NO_X(x, y, z) (((y) != 0.0f || (z) != 0.0f) && abs(x) <= LEAST_HELD)
-#define MARKED_X(x, y, z) select(HAS_NO_X(x, y, z), (x) - (x) + LEAST_HELD, x)
-#define UNMARKED_X(x, y, z) select(HAS_NO_X(x, y, z), (x) - (x), x)
+// The bits of the components of a sphere's own acceleration, whose words are `accelerationXz` and `accelerationYz`.
+// They have the upper 21 bits of x or y, then 11 and 10 bits of z: an error of at most 2^-12.
+#define ACCELERATION_X_BITS(xz, yz) ((xz) & 0xfffff800u)
+#define ACCELERATION_Y_BITS(xz, yz) ((yz) & 0xfffff800u)
+#define ACCELERATION_Z_BITS(xz, yz) (((xz) << 21u) | (((yz) & 0x3ffu) << 11u))
+
+// In the second number of a listed pair: its contact remembers something (shared/contact_memory.h).
+#define PAIR_REMEMBERS 0x80000000u
+#define SECOND_OF(pair) ((pair).y & ~PAIR_REMEMBERS)

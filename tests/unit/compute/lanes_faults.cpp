@@ -254,9 +254,15 @@ void checkRows(std::uint32_t live) {
 
 void checkSlots(std::uint32_t live) {
     fill();
-    for (unsigned lane = 0; lane < lanes; ++lane) listed[lane] = {(lane * 5 + 3) % elements, (lane * 7 + 1) % elements};
+    for (unsigned lane = 0; lane < lanes; ++lane)
+        listed[lane] = {(lane * 5 + 3) % elements, (lane * 7 + 1) % elements + (lane % 3 == 0 ? 0x80000000U : 0)};
+    const mask highest = highestBits(listed, uintRow{.first = 0, .live = live});
     RowOffsets offsets[2];
     readPairs(listed, offsets[0], offsets[1]);
+    for (unsigned lane = 0; lane < lanes; ++lane) {
+        check((bitsOf(highest) >> lane & 1U) == (lane % 3 == 0 ? 1U : 0U), "highestBits");
+        listed[lane].second &= 0x7fffffffU;
+    }
     const slots a{&offsets[0]};
     const slots b{&offsets[1]};
     const real4 gathered = rowsOf(rows, b);

@@ -100,9 +100,11 @@ TEST(KernelsAsCpp, OwnAccelerationIsAMeanOverSubsteps) {
     };
     EXPECT_NEAR(meanAfter(40, 0), 1, 1e-4F);
     EXPECT_NEAR(meanAfter(8, 3), 3 * (1 - std::pow(0.875F, 8)), 1e-3F);
-    EXPECT_NEAR(meanAfter(60, 3), 3, 2e-3F);
-    EXPECT_NEAR(meanAfter(4, 0), 3 * std::pow(0.875F, 4), 2e-3F);
-    EXPECT_NEAR(meanAfter(60, 1), 1, 2e-3F) << "in free fall";
+    // The mean ends where an eighth of its error is lost with the lowest bits of a component (shared/layout.h).
+    const float lost = 8.0F / 4096;
+    EXPECT_NEAR(meanAfter(60, 3), 3, 3 * lost);
+    EXPECT_NEAR(meanAfter(4, 0), 3 * std::pow(0.875F, 4), 3 * lost);
+    EXPECT_EQ(meanAfter(60, 1), 1) << "in free fall";
     for (int substep = 0; substep < 40; ++substep) {
         meanAfter(1, 3);
         meanAfter(1, 0);
@@ -378,9 +380,13 @@ TEST(KernelsAsCpp, BitsDoNotDependOnTheNumberOfLanes) {
         EXPECT_EQ(many.angularVelocity, one.angularVelocity) << lanes;
         EXPECT_EQ(many.unheldVelocity, one.unheldVelocity) << lanes;
         EXPECT_EQ(many.unheldSpin, one.unheldSpin) << lanes;
-        EXPECT_EQ(many.acceleration, one.acceleration) << lanes;
-        EXPECT_EQ(many.contactX, one.contactX) << lanes;
-        EXPECT_EQ(many.contactZ, one.contactZ) << lanes;
+        EXPECT_EQ(many.accelerationXz, one.accelerationXz) << lanes;
+        EXPECT_EQ(many.accelerationYz, one.accelerationYz) << lanes;
+        ASSERT_EQ(many.listed(), one.listed()) << lanes;
+        for (const uint k : one.listed()) {
+            EXPECT_EQ(many.remembered(k), one.remembered(k)) << lanes;
+            EXPECT_EQ(many.rememberedTorque(k), one.rememberedTorque(k)) << lanes;
+        }
         EXPECT_EQ(many.wallImpulse, one.wallImpulse) << lanes;
     }
 }

@@ -1,6 +1,7 @@
 #include "kernels_bed.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <stdexcept>
 
@@ -45,10 +46,10 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
     parameters.wallMax = vec4(100, 100, 100, 0);
     parameters.substepRatio = 1;
     for (auto* column : {&positionLow, &angularVelocity, &velocityBefore, &deltaVelocity, &deltaOmega, &unheldVelocity,
-                         &unheldSpin, &acceleration, &listReference, &sortScratch_})
+                         &unheldSpin, &listReference, &sortScratch_})
         column->assign(count, vec4(0));
     velocity.assign(count, vec4(0, 0, 0, 1));
-    for (auto* column : {&idAndMaterial, &rankInCell_, &slots_, &carriedCount_, &sortScratchWords_})
+    for (auto* column : {&idAndMaterial, &accelerationXz, &accelerationYz, &rankInCell_, &slots_, &carriedCount_, &sortScratchWords_})
         column->resize(count);
     busyBatches_.resize(std::size_t{8} * count);
     cellOrder_.resize(std::max(count, MOST_OUTSIDE));
@@ -78,7 +79,8 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"deltaOmega", deltaOmega},
                           {"unheldVelocity", unheldVelocity},
                           {"unheldSpin", unheldSpin},
-                          {"acceleration", acceleration},
+                          {"accelerationXz", accelerationXz},
+                          {"accelerationYz", accelerationYz},
                           {"listReference", listReference},
                           {"wallImpulse", wallImpulse},
                           {"wallTorque", wallTorque},
@@ -153,15 +155,16 @@ void Bed::rebuild() {
 void Bed::sortColumns() {
     const Launch how{.parameters = &parameters, .phase = 0, .features = features};
     for (auto* column : {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore, &unheldVelocity,
-                         &unheldSpin, &acceleration}) {
+                         &unheldSpin}) {
         const Slot slots[] = {{"column", *column}, {"cellOrder", cellOrder_}, {"sortScratch", sortScratch_}};
         launch("sort_vectors", slots, how);
         launch("copy_vectors", slots, how);
     }
-    const Slot slots[] = {
-        {"column", idAndMaterial}, {"cellOrder", cellOrder_}, {"sortScratchWords", sortScratchWords_}};
-    launch("sort_words", slots, how);
-    launch("copy_words", slots, how);
+    for (auto* column : {&idAndMaterial, &accelerationXz, &accelerationYz}) {
+        const Slot slots[] = {{"column", *column}, {"cellOrder", cellOrder_}, {"sortScratchWords", sortScratchWords_}};
+        launch("sort_words", slots, how);
+        launch("copy_words", slots, how);
+    }
 }
 
 void Bed::sweep(std::string_view kernel) {
@@ -280,7 +283,7 @@ std::vector<uint> Bed::listed() const {
 }
 
 uvec2 Bed::idsOf(uint pair) const {
-    return {idAndMaterial[pairs[pair].x] & idMask, idAndMaterial[pairs[pair].y] & idMask};
+    return {idAndMaterial[pairs[pair].x] & idMask, idAndMaterial[SECOND_OF(pairs[pair])] & idMask};
 }
 
 std::optional<uint> Bed::placeOf(uint a, uint b) const {
@@ -295,8 +298,16 @@ uint Bed::present() const {
 
 vec3 Bed::remembered(uint pair) const {
     const uint at = present() + pair;
-    const bool marked = (features & Feature::BALANCED) != 0 && contactX[at] == LEAST_HELD;
-    return {marked ? 0 : contactX[at], contactY[at], contactZ[at]};
+    const vec3 value = {contactX[at], contactY[at], contactZ[at]};
+    EXPECT_EQ(value != vec3(0), (pairs[pair].y & PAIR_REMEMBERS) != 0) << "pair " << pair;
+    return value;
+}
+
+vec3 Bed::ownAcceleration(uint slot) const {
+    const uint xz = accelerationXz[slot];
+    const uint yz = accelerationYz[slot];
+    return {std::bit_cast<float>(ACCELERATION_X_BITS(xz, yz)), std::bit_cast<float>(ACCELERATION_Y_BITS(xz, yz)),
+            std::bit_cast<float>(ACCELERATION_Z_BITS(xz, yz))};
 }
 
 vec3 Bed::rememberedTorque(uint pair) const {
@@ -306,7 +317,8 @@ vec3 Bed::rememberedTorque(uint pair) const {
 
 void Bed::remember(uint pair, vec3 value, vec3 torque) {
     const uint at = present() + pair;
-    contactX[at] = value.x == 0 && value != vec3(0) && (features & Feature::BALANCED) != 0 ? LEAST_HELD : value.x;
+    pairs[pair].y = SECOND_OF(pairs[pair]) | (value != vec3(0) ? PAIR_REMEMBERS : 0);
+    contactX[at] = value.x;
     contactY[at] = value.y;
     contactZ[at] = value.z;
     torqueX[at] = torque.x;

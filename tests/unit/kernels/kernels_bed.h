@@ -63,6 +63,7 @@ struct Bed {
     // The memory of a listed contact, as the first sphere of the pair sees it.
     vec3 remembered(uint pair) const;
     vec3 rememberedTorque(uint pair) const;
+    vec3 ownAcceleration(uint slot) const;  // m/s: change of the velocity in a substep, running mean
     void remember(uint pair, vec3 value, vec3 torque = vec3(0));
 
     // Makes all listed contacts hold this normal impulse (N s), as in the middle of a substep.
@@ -79,8 +80,8 @@ struct Bed {
     unsigned lanes = 1;
     layout::Parameters parameters{};
     std::vector<vec4> position, positionLow, velocity, angularVelocity, velocityBefore, deltaVelocity, deltaOmega;
-    std::vector<vec4> unheldVelocity, unheldSpin, acceleration, listReference, wallImpulse, wallTorque;
-    std::vector<uint> idAndMaterial;
+    std::vector<vec4> unheldVelocity, unheldSpin, listReference, wallImpulse, wallTorque;
+    std::vector<uint> idAndMaterial, accelerationXz, accelerationYz;
     std::vector<layout::ContactParams> contactParams = std::vector<layout::ContactParams>(1);
     std::vector<layout::Obstacle> obstacles = std::vector<layout::Obstacle>(2);
     std::vector<uint> obstacleLists{END_OF_LIST, END_OF_LIST};

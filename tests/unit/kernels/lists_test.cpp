@@ -81,7 +81,7 @@ TEST(KernelsAsCpp, PairsOfABatchShareNoSphere) {
     for (const Bed::Listed& one : bed.order()) {
         ASSERT_LT(one.batch, BATCHES) << "no sphere has so many neighbours here";
         ++pairsOfBatch[one.batch];
-        for (const uint slot : {bed.pairs[one.place].x, bed.pairs[one.place].y})
+        for (const uint slot : {bed.pairs[one.place].x, SECOND_OF(bed.pairs[one.place])})
             slots[{one.bundle, one.batch}].insert(slot);
     }
     for (const auto& [batch, found] : slots)
@@ -108,7 +108,7 @@ TEST(KernelsAsCpp, BlocksOfAColourShareNoSphere) {
     bed.rebuild();
     std::map<uint, std::map<uint, std::set<uint>>> slots;  // by colour, slot: the bundles that hold it
     for (const Bed::Listed& one : bed.order())
-        for (const uint slot : {bed.pairs[one.place].x, bed.pairs[one.place].y})
+        for (const uint slot : {bed.pairs[one.place].x, SECOND_OF(bed.pairs[one.place])})
             slots[one.bundle / 2][slot].insert(one.bundle);
     EXPECT_EQ(slots.size(), 8U);
     std::size_t inBoth = 0;
