@@ -127,7 +127,9 @@ TEST(Plan, WithoutContactsAndForcesOnlyMoves) {
         // Open faces: check_motion.comp belongs to the last pass.
         EXPECT_EQ(dispatched, balanced ? std::vector({Pass::Begin, Pass::Finish}) : std::vector({Pass::Integrate}));
         std::vector<Array> needed = arraysOfEveryPlan;
-        if (balanced) needed.insert(needed.end(), {Array::VelocityBefore, Array::UnheldVelocity, Array::AccelerationXz, Array::AccelerationYz});
+        if (balanced)
+            needed.insert(needed.end(),
+                          {Array::VelocityBefore, Array::UnheldVelocity, Array::AccelerationXz, Array::AccelerationYz});
         if (model == scene::Model::Accurate) needed.push_back(Array::PositionLow);
         for (const Array array : needed) EXPECT_TRUE(plan.has(array)) << nameOf(array);
         EXPECT_EQ(plan.arrays.size(), needed.size());

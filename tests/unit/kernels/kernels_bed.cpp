@@ -49,7 +49,8 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
                          &unheldSpin, &listReference, &sortScratch_})
         column->assign(count, vec4(0));
     velocity.assign(count, vec4(0, 0, 0, 1));
-    for (auto* column : {&idAndMaterial, &accelerationXz, &accelerationYz, &rankInCell_, &slots_, &carriedCount_, &sortScratchWords_})
+    for (auto* column :
+         {&idAndMaterial, &accelerationXz, &accelerationYz, &rankInCell_, &slots_, &carriedCount_, &sortScratchWords_})
         column->resize(count);
     busyBatches_.resize(std::size_t{8} * count);
     cellOrder_.resize(std::max(count, MOST_OUTSIDE));
@@ -154,8 +155,8 @@ void Bed::rebuild() {
 
 void Bed::sortColumns() {
     const Launch how{.parameters = &parameters, .phase = 0, .features = features};
-    for (auto* column : {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore, &unheldVelocity,
-                         &unheldSpin}) {
+    for (auto* column :
+         {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore, &unheldVelocity, &unheldSpin}) {
         const Slot slots[] = {{"column", *column}, {"cellOrder", cellOrder_}, {"sortScratch", sortScratch_}};
         launch("sort_vectors", slots, how);
         launch("copy_vectors", slots, how);
