@@ -16,19 +16,32 @@ BUFFER(writeonly, uvec2, carried)     // by id, CARRIED_MOST each: id of the par
 #include "shared/carried.h"
 #include "shared/contact_owner.h"
 
+// The contacts that a thread notes at once. On a processor, an atomic addition waits for all reads and writes before it,
+// so that it does not come between them.
+#define AT_ONCE (THREADS == 1u ? 32u : 1u)
+
 BUNDLE_KERNEL(params.bundles) {
     if (!hasList(invocation) || listedPairs(invocation) == 0u) return;
+    uint owners[AT_ONCE];
+    uint places[AT_ONCE];
+    uvec2 rows[AT_ONCE];
     uint noted = 0u;
-    for (uint k = firstPair(invocation) + THREAD; k < endOfPairs(invocation); k += THREADS) {
-        if (!REMEMBERS(pairs, k)) continue;
-        noted = noted + 1u;
-        uint a = pairs[k].x;
-        uint b = SECOND_OF(pairs[k]);
-        bool first = firstOwnsContact(a, b);
-        uint owner = idOf(idAndMaterial[first ? a : b]);
-        uint partner = idOf(idAndMaterial[first ? b : a]);
-        uint place = countIn(atomicAdd(carriedCount[owner], oneMoreCarried()));
-        if (place < CARRIED_MOST) carried[owner * CARRIED_MOST + place] = uvec2(partner | (first ? FIRST_OWNS : 0u), k);
+    uint end = endOfPairs(invocation);
+    for (uint from = firstPair(invocation) + THREAD; from < end; from += THREADS * AT_ONCE) {
+        uint count = 0u;
+        for (uint k = from; k < min(end, from + THREADS * AT_ONCE); k += THREADS) {
+            if (!REMEMBERS(pairs, k)) continue;
+            uint a = pairs[k].x;
+            uint b = SECOND_OF(pairs[k]);
+            bool first = firstOwnsContact(a, b);
+            owners[count] = idOf(idAndMaterial[first ? a : b]);
+            rows[count] = uvec2(idOf(idAndMaterial[first ? b : a]) | (first ? FIRST_OWNS : 0u), k);
+            count = count + 1u;
+        }
+        for (uint j = 0u; j < count; ++j) places[j] = countIn(atomicAdd(carriedCount[owners[j]], oneMoreCarried()));
+        for (uint j = 0u; j < count; ++j)
+            if (places[j] < CARRIED_MOST) carried[owners[j] * CARRIED_MOST + places[j]] = rows[j];
+        noted = noted + count;
     }
     if (noted > 0u) atomicAdd(counters[COUNTER_CARRIED], noted);
 }

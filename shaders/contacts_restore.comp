@@ -41,17 +41,6 @@ void restore(uint to, uint from, float sign) {
     }
 }
 
-void clear(uint to) {
-    contactX[to] = 0.0f;
-    contactY[to] = 0.0f;
-    contactZ[to] = 0.0f;
-    if (HAS(BALANCED) && HAS(FRICTION)) {
-        torqueX[to] = 0.0f;
-        torqueY[to] = 0.0f;
-        torqueZ[to] = 0.0f;
-    }
-}
-
 uint ownerOf(uint pair) {
     uint a = pairs[pair].x;
     uint b = SECOND_OF(pairs[pair]);
@@ -65,7 +54,6 @@ BUNDLE_KERNEL(params.bundles) {
     uint previous = previousHalf();
     restored = 0u;
     for (uint k = firstPair(bundle) + THREAD; k < endOfPairs(bundle); k += THREADS) {
-        clear(present + k);
         PREFETCH(carried[ownerOf(min(k + PAIRS_AHEAD, endOfPairs(bundle) - 1u)) * CARRIED_MOST])
         uint a = pairs[k].x;
         uint b = pairs[k].y;  // it has no PAIR_REMEMBERS yet

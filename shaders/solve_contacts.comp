@@ -28,6 +28,7 @@ BUFFER(restrict, float, torqueZ)
 
 PRIVATE(uint, remembered)  // the first element of the contact memory of the present lists
 PRIVATE(uintRow, memory)   // of the contacts that are solved
+PRIVATE(mask, flagged)     // whether they have held an impulse before
 
 #include "shared/bundle_words.h"
 #include "shared/contact.h"
@@ -37,7 +38,8 @@ PRIVATE(uintRow, memory)   // of the contacts that are solved
 #include "shared/contact_sums.h"
 
 void readHeldTorque() {
-    heldTorque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));
+    real3 torque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));
+    heldTorque = select(flagged, torque, real3(0.0f, 0.0f, 0.0f));
 }
 
 #include "shared/contact_pair.h"
@@ -81,12 +83,12 @@ void toggleMemory(uint k) {
 
 void visitPairs(slots a, slots b, uintRow at) {
     memory = at + remembered;
-    mask remembers = REMEMBERS(pairs, at);
+    flagged = REMEMBERS(pairs, at);
     real3 nothing = real3(0.0f, 0.0f, 0.0f);
     heldImpulse = nothing;
-    if (anyLane(remembers)) {
+    if (anyLane(flagged)) {
         real3 impulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
-        heldImpulse = select(remembers, impulse, nothing);
+        heldImpulse = select(flagged, impulse, nothing);
     }
     if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
     SET_ALL(contactX, memory, heldImpulse.x)
@@ -98,7 +100,7 @@ void visitPairs(slots a, slots b, uintRow at) {
         SET_ALL(torqueZ, memory, heldTorque.z)
     }
     mask holds = heldImpulse.x != 0.0f || heldImpulse.y != 0.0f || heldImpulse.z != 0.0f;
-    EACH_LANE((holds && !remembers) || (remembers && !holds), toggleMemory, at)
+    EACH_LANE((holds && !flagged) || (flagged && !holds), toggleMemory, at)
 }
 
 LANE_PAIR_KERNEL

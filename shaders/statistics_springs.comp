@@ -52,10 +52,10 @@ BUNDLE_KERNEL(params.bundles) {
     // The sums have one order for any number of threads.
     for (uint part = THREAD; part < BUNDLE_THREADS; part += THREADS) {
         float energy = 0.0f;
-        displacement = vec3(0.0f, 0.0f, 0.0f);
         for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS) {
             uint at = presentHalf() + k;
-            if (HAS(FRICTION)) displacement = vec3(contactX[at], contactY[at], contactZ[at]);
+            displacement = vec3(0.0f, 0.0f, 0.0f);
+            if (HAS(FRICTION) && REMEMBERS(pairs, k)) displacement = vec3(contactX[at], contactY[at], contactZ[at]);
             energy += energyOf(pairs[k].x, SECOND_OF(pairs[k]));
         }
         partialSums[part] = energy;

@@ -1,8 +1,8 @@
 // The memory of listed contacts: `contactX`, `contactY` and `contactZ`. In the model `balanced`, they are the impulse
 // of the last substep on the first sphere (N s). There `torqueX`, `torqueY` and `torqueZ` are the torque of its
-// friction, per lever of a sphere (N s). In `accurate`, they are the tangential displacement of the first sphere (m). A
-// contact that remembers zero is not held, and has no torque. The pairs of all others have PAIR_REMEMBERS. Solvers do
-// not read the memory of a pair without it: most listed pairs have gaps.
+// friction, per lever of a sphere (N s). In `accurate`, they are the tangential displacement of the first sphere (m).
+//
+// A pair has PAIR_REMEMBERS if its contact remembers something but zero. The memory of other pairs has any content.
 //
 // Each array has two halves of params.pairCapacity elements. Lists use the halves in turn, so that a rebuild can copy
 // from the old half to the new one. The includer binds `counters`.

@@ -161,8 +161,8 @@ void readPairs(reference::World& world, sim::Simulation& simulation) {
             const std::size_t a = ids[pairs[k].x];
             const std::size_t b = ids[SECOND_OF(pairs[k])];
             const double sign = a < b ? 1 : -1;
-            if (const glm::dvec3 held = impulse.at(half + k); held != glm::dvec3(0))
-                world.pairsHold[std::minmax(a, b)] = {held * sign, torque.at(half + k)};
+            if ((pairs[k].y & PAIR_REMEMBERS) != 0)
+                world.pairsHold[std::minmax(a, b)] = {impulse.at(half + k) * sign, torque.at(half + k)};
         }
     }
 }
