@@ -16,8 +16,8 @@ BUFFER(writeonly, uvec2, carried)     // by id, CARRIED_MOST each: id of the par
 #include "shared/carried.h"
 #include "shared/contact_owner.h"
 
-// The contacts that a thread notes at once. On a processor, an atomic addition waits for all reads and writes before it,
-// so that it does not come between them.
+// A thread reads so many pairs, then adds to their counters, then writes their rows. Between the reads and writes of
+// each pair, an atomic addition would make a CPU wait for them.
 #define AT_ONCE (THREADS == 1u ? 32u : 1u)
 
 BUNDLE_KERNEL(params.bundles) {

@@ -41,6 +41,7 @@ void restore(uint to, uint from, float sign) {
     }
 }
 
+// For the prefetch. In GLSL, another thread may have set PAIR_REMEMBERS already.
 uint ownerOf(uint pair) {
     uint a = pairs[pair].x;
     uint b = SECOND_OF(pairs[pair]);

@@ -28,7 +28,7 @@ BUFFER(restrict, float, torqueZ)
 
 PRIVATE(uint, remembered)  // the first element of the contact memory of the present lists
 PRIVATE(uintRow, memory)   // of the contacts that are solved
-PRIVATE(mask, flagged)     // whether they have held an impulse before
+PRIVATE(mask, flagged)     // whether they hold an impulse from the substep before
 
 #include "shared/bundle_words.h"
 #include "shared/contact.h"
@@ -90,7 +90,8 @@ void visitPairs(slots a, slots b, uintRow at) {
         real3 impulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
         heldImpulse = select(flagged, impulse, nothing);
     }
-    if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
+    mask changed = solvePairs(liveLanes(), a, b, true);
+    if (!anyLane(changed)) return;
     SET_ALL(contactX, memory, heldImpulse.x)
     SET_ALL(contactY, memory, heldImpulse.y)
     SET_ALL(contactZ, memory, heldImpulse.z)
@@ -100,7 +101,7 @@ void visitPairs(slots a, slots b, uintRow at) {
         SET_ALL(torqueZ, memory, heldTorque.z)
     }
     mask holds = heldImpulse.x != 0.0f || heldImpulse.y != 0.0f || heldImpulse.z != 0.0f;
-    EACH_LANE((holds && !flagged) || (flagged && !holds), toggleMemory, at)
+    EACH_LANE(changed && ((holds && !flagged) || (flagged && !holds)), toggleMemory, at)
 }
 
 LANE_PAIR_KERNEL

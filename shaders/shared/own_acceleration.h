@@ -7,9 +7,9 @@ ANY_REAL3 ownAcceleration(ANY_UINT xz, ANY_UINT yz) {
 }
 
 ANY_UINT accelerationXzOf(ANY_REAL3 a) {
-    return (floatBitsToUint(a.x) & 0xfffff800u) | (floatBitsToUint(a.z) >> 21u);
+    return (floatBitsToUint(a.x) & ACCELERATION_BITS) | (floatBitsToUint(a.z) >> 21u);
 }
 
 ANY_UINT accelerationYzOf(ANY_REAL3 a) {
-    return (floatBitsToUint(a.y) & 0xfffff800u) | ((floatBitsToUint(a.z) >> 11u) & 0x3ffu);
+    return (floatBitsToUint(a.y) & ACCELERATION_BITS) | ((floatBitsToUint(a.z) >> 11u) & 0x3ffu);
 }

@@ -127,8 +127,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BedCase{"fast", "box-4k", scene::Model::Fast, 0.3, scene::Model::Fast, 420},
                     BedCase{"balanced", "box-10k", scene::Model::Balanced, 0.3, scene::Model::Balanced, 600},
                     BedCase{"balanced_without_friction", "box-10k", scene::Model::Balanced, 0, scene::Model::Balanced,
-                            450},
-                    BedCase{"accurate", "box-4k", scene::Model::Accurate, 0.3, scene::Model::Balanced, 660}),
+                            400},
+                    BedCase{"accurate", "box-4k", scene::Model::Accurate, 0.3, scene::Model::Balanced, 640}),
     [](const auto& parameter) { return parameter.param.name; });
 
 // A launch reads a word once however often it is read, and does not read what it has written.

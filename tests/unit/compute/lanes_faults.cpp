@@ -220,6 +220,9 @@ void checkRows(std::uint32_t live) {
         check(isRow(inRow, lane, row.first + lane), "rowsOf a row");
         check(single.v[lane] == -static_cast<float>(row.first + lane), "rowsOf floats");
         check(numberedRow.v[lane] == 7 * (row.first + lane), "rowsOf words in a row");
+        check((numberedRow << 3U).v[lane] == 56 * (row.first + lane), "shift to the left");
+        check(uintBitsToFloat(floatBitsToUint(single)).v[lane] == single.v[lane], "floatBitsToUint");
+        check(floatBitsToUint(real(-1.5F)).v[lane] == 0xbfc00000U, "floatBitsToUint of -1.5");
     }
 
     const mask where = lanesOfRemainder(0, 2);
@@ -236,6 +239,11 @@ void checkRows(std::uint32_t live) {
     for (unsigned k = 0; k < elements; ++k) {
         const bool changed = k >= row.first && k < row.first + live && (k - row.first) % 2 == 0;
         check(rows[k].y == (changed ? -2 : static_cast<float>(k) + 0.25F), "setRows of a row");
+    }
+    setRows(where, words, row, uints(3U), numberedRow, live);
+    for (unsigned k = 0; k < elements; ++k) {
+        const bool changed = k >= row.first && k < row.first + live && (k - row.first) % 2 == 0;
+        check(words[k] == (changed ? 3 : 7 * k), "setRows of words in a row");
     }
     setAll(reals, row, real(5.0F));
     for (unsigned k = 0; k < elements; ++k)

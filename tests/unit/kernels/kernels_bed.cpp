@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -60,8 +61,10 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
     wallTorque.assign(std::size_t{count} * wallRows, vec4(0));
     cellStart.resize(parameters.cells.w + 1);
     for (auto* list : {&pairs, &candidates}) list->resize(capacity);
-    for (auto* half : {&contactX, &contactY, &contactZ, &torqueX, &torqueY, &torqueZ})
-        half->resize(std::size_t{2} * capacity);
+    constexpr float anything = std::numeric_limits<float>::quiet_NaN();  // see contact_memory.h
+    const bool torques = (features & Feature::BALANCED) != 0 && (features & Feature::FRICTION) != 0;
+    for (auto* half : {&contactX, &contactY, &contactZ}) half->assign(std::size_t{2} * capacity, anything);
+    for (auto* half : {&torqueX, &torqueY, &torqueZ}) half->assign(std::size_t{2} * capacity, torques ? anything : 0);
     for (auto* column : {&sortedX_, &sortedY_, &sortedZ_, &sortedRadius_}) column->resize(count + PAIR_PADDING);
     carried_.resize(std::size_t{count} * CARRIED_MOST);
     groupRange.resize(parameters.cells.w / 8);
