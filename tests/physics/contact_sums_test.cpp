@@ -45,8 +45,9 @@ TEST_P(ContactSums, OfAnImpactAreThoseOfHardSpheres) {
         scene.quality.overlap = 0.004;  // soft spheres are nearer to each other
         const double r = 0.05;
         const double speed = 1.5;
-        addSphere(scene, -0.1 * n, r, speed * n);
-        addSphere(scene, 0.1 * n, r, -speed * n);
+        // They meet within a substep. Where it ends, an impact may be counted in the next one, or in both.
+        addSphere(scene, -0.1007 * n, r, speed * n);
+        addSphere(scene, 0.1007 * n, r, -speed * n);
         measureContacts(scene, GetParam());
         auto simulation = simulate(scene);
         EXPECT_FALSE(simulation->statistics().contactStress) << "no time has passed";
