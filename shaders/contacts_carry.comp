@@ -30,7 +30,7 @@ BUNDLE_KERNEL(params.bundles) {
     for (uint from = firstPair(invocation) + THREAD; from < end; from += THREADS * AT_ONCE) {
         uint count = 0u;
         for (uint k = from; k < min(end, from + THREADS * AT_ONCE); k += THREADS) {
-            if (!REMEMBERS(pairs, k)) continue;
+            if ((pairs[k].y & PAIR_REMEMBERS) == 0u) continue;
             uint a = pairs[k].x;
             uint b = SECOND_OF(pairs[k]);
             bool first = firstOwnsContact(a, b);

@@ -41,14 +41,14 @@ void endBundle(uint bundle) {
 }
 
 void visitPairs(uint a, uint b, uint at) {
-    if (!REMEMBERS(pairs, at)) return;
+    if (!REMEMBERS(pairs, b, at)) return;
     uint memory = presentHalf() + at;
     vec3 impulse = vec3(contactX[memory], contactY[memory], contactZ[memory]);
     if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f) return;  // scale_pairs.comp has made it so small
     vec3 torque = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) torque = vec3(torqueX[memory], torqueY[memory], torqueZ[memory]);
     addHeld(a, impulse, torque);
-    addHeld(b, -impulse, torque);
+    addHeld(SLOTS_OF(b), -impulse, torque);
 }
 
 PAIR_KERNEL

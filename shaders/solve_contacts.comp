@@ -17,7 +17,7 @@ BUFFER(coherent, vec4, unheldVelocity)
 BUFFER(coherent, vec4, unheldSpin)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(restrict, uvec2, pairs)
+BUFFER(coherent, uvec2, pairs)
 BUFFER(restrict, uint, bundles)
 BUFFER(restrict, float, contactX)
 BUFFER(restrict, float, contactY)
@@ -83,14 +83,14 @@ void toggleMemory(uint k) {
 
 void visitPairs(slots a, slots b, uintRow at) {
     memory = at + remembered;
-    flagged = REMEMBERS(pairs, at);
+    flagged = REMEMBERS(pairs, b, at);
     real3 nothing = real3(0.0f, 0.0f, 0.0f);
     heldImpulse = nothing;
     if (anyLane(flagged)) {
         real3 impulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
         heldImpulse = select(flagged, impulse, nothing);
     }
-    mask changed = solvePairs(liveLanes(), a, b, true);
+    mask changed = solvePairs(liveLanes(), a, SLOTS_OF(b), true);
     if (!anyLane(changed)) return;
     SET_ALL(contactX, memory, heldImpulse.x)
     SET_ALL(contactY, memory, heldImpulse.y)

@@ -22,7 +22,7 @@ BUFFER(coherent, vec4, deltaOmega)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uint, bundles)
-BUFFER(restrict, uvec2, pairs)
+BUFFER(coherent, uvec2, pairs)
 BUFFER(restrict, float, contactX)
 BUFFER(restrict, float, contactY)
 BUFFER(restrict, float, contactZ)
@@ -120,17 +120,17 @@ bool beginBundle(uint bundle) {
 
 void visitPairs(uint a, uint b, uint at) {
     if (!HAS(FRICTION)) {
-        visitPair(a, b);
+        visitPair(a, SLOTS_OF(b));
         return;
     }
     uint memory = presentHalf() + at;
-    bool remembers = REMEMBERS(pairs, at);
+    bool remembers = REMEMBERS(pairs, b, at);
     displacement = vec3(0.0f, 0.0f, 0.0f);
     if (remembers) displacement = vec3(contactX[memory], contactY[memory], contactZ[memory]);
-    visitPair(a, b);
+    visitPair(a, SLOTS_OF(b));
     if (!touches) displacement = vec3(0.0f, 0.0f, 0.0f);
     bool stays = displacement.x != 0.0f || displacement.y != 0.0f || displacement.z != 0.0f;
-    if (stays != remembers) pairs[at].y = pairs[at].y ^ PAIR_REMEMBERS;
+    if (stays != remembers) pairs[at].y = b ^ PAIR_REMEMBERS;
     if (!stays && !remembers) return;
     contactX[memory] = displacement.x;
     contactY[memory] = displacement.y;

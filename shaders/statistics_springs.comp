@@ -55,7 +55,8 @@ BUNDLE_KERNEL(params.bundles) {
         for (uint k = firstPair(invocation) + part; k < endOfPairs(invocation); k += BUNDLE_THREADS) {
             uint at = presentHalf() + k;
             displacement = vec3(0.0f, 0.0f, 0.0f);
-            if (HAS(FRICTION) && REMEMBERS(pairs, k)) displacement = vec3(contactX[at], contactY[at], contactZ[at]);
+            if (HAS(FRICTION) && (pairs[k].y & PAIR_REMEMBERS) != 0u)
+                displacement = vec3(contactX[at], contactY[at], contactZ[at]);
             energy += energyOf(pairs[k].x, SECOND_OF(pairs[k]));
         }
         partialSums[part] = energy;

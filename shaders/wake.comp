@@ -54,7 +54,7 @@ void endBundle(uint bundle) {
 }
 
 void visitPairs(uint a, uint b, uint at) {
-    visitPair(a, b);
+    visitPair(a, SLOTS_OF(b));
 }
 
 PAIR_KERNEL

@@ -23,9 +23,9 @@
 //   PAIR_KERNEL                 (shared/bundles.h). The same with one lane in C++ too. The includer defines
 //                               `bool beginBundle(uint bundle)`, which returns false to skip the bundle, and
 //                               `void visitPairs(slots a, slots b, uintRow at)`, where `at` is the number of the pair,
-//                               and `void endBundle(uint bundle)`, which each thread calls at the end. `b` is without
-//                               PAIR_REMEMBERS. visitPairs may change this bit of its own pair alone: other threads
-//                               read the pairs of later batches.
+//                               and `void endBundle(uint bundle)`, which each thread calls at the end. `b` may have
+//                               PAIR_REMEMBERS (shared/layout.h). visitPairs may change this bit of its own pair alone,
+//                               in `coherent` pairs: other threads read the pairs of later batches.
 //                               With lanes, also `bool expectsPairs()`, which returns true if it is worth while that
 //                               `void expectPairs(uint first, uint count)` prefetches the data of later pairs.
 //
@@ -36,11 +36,12 @@
 //   ANY_REAL, ANY_REAL3, ANY_REAL4, ANY_MASK, ANY_UINT  Types in functions for values per lane and for single values.
 //   ROW(array, at)              The elements of a buffer at `at`: uints, slots or a uintRow.
 //   SET_ROW(where, array, at, to, old)  Sets the elements of the lanes in `where`. `old`: their present values.
-//   SET_ALL(array, at, to)      Sets the elements of all lanes of a uintRow. Those of lanes
-//                               that do not exist must keep theirs, or be of no use.
+//   SET_ALL(array, at, to)      Sets the elements of all lanes of a uintRow. Elements of lanes
+//                               that do not exist must keep their values, or be of no use.
 //   MEMBER(array, at, member)   A vec4 member of the structs of a buffer, or a component of its vectors.
-//   REMEMBERS(pairs, at)        Whether the pairs of a uintRow have PAIR_REMEMBERS (shared/layout.h). Lanes that do not
-//                               exist have the bits of the pairs that follow.
+//   REMEMBERS(pairs, b, at)     Whether the pairs that visitPairs gets have PAIR_REMEMBERS. Lanes that do not exist
+//                               have the bits of the pairs that follow.
+//   SLOTS_OF(b)                 The slots of the second spheres.
 //   wholeOf(value)              The whole number of a real from 0 to 2^24.
 //   RARE                        Before a function: keeps it out of the code around its calls.
 //   EACH_LANE(where, function, at)  Calls the function with the number of each lane in `where`.
@@ -120,7 +121,8 @@ layout(location = 0) uniform uint phase;
 #define RAISE_TO(where, word, value)                                                             \
     if (where && word < floatBitsToUint(value)) atomicMax(word, floatBitsToUint(value));
 #define SEEN(word) (word)
-#define REMEMBERS(pairs, at) ((pairs[at].y & PAIR_REMEMBERS) != 0u)
+#define REMEMBERS(pairs, b, at) (((b) & PAIR_REMEMBERS) != 0u)
+#define SLOTS_OF(b) ((b) & ~PAIR_REMEMBERS)
 #define LANE_KERNEL(count) KERNEL(count)
 #define EACH_LANE_WITH(where, flag, function, at) if (where) function(at, flag);
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) if (where) function(number, more, a, b);
@@ -171,7 +173,7 @@ layout(location = 0) uniform uint phase;
             if (to + THREAD < end) next = pairs[to + THREAD];                                    \
             for (uint k = from + THREAD; k < to; k += uint(PAIR_THREADS)) {                      \
                 if (k >= from + uint(PAIR_THREADS)) pair = pairs[k];                             \
-                visitPairs(pair.x, SECOND_OF(pair), k);                                          \
+                visitPairs(pair.x, pair.y, k);                                                   \
             }                                                                                    \
             from = to;                                                                           \
             BUFFER_BARRIER                                                                       \

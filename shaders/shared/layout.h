@@ -245,8 +245,8 @@ struct SphereStatistics {
 #define CARRIED_MOST 16u
 
 // The bits of the components of a sphere's own acceleration, whose words are `accelerationXz` and `accelerationYz`.
-// They have the upper 21 bits of x or y, then the upper 11 and the lower 10 of the 21 bits of z. A component loses up to
-// 2^-12 of itself, so that a mean over eight substeps ends up to 8 * 2^-12 below a constant.
+// They have the upper 21 bits of x or y, then the upper 11 and the lower 10 of the 21 bits of z. A component loses up
+// to 2^-12 of itself, so that a mean over eight substeps ends up to 8 * 2^-12 below a constant.
 #define ACCELERATION_BITS 0xfffff800u
 #define ACCELERATION_X_BITS(xz, yz) ((xz) & ACCELERATION_BITS)
 #define ACCELERATION_Y_BITS(xz, yz) ((yz) & ACCELERATION_BITS)

@@ -276,7 +276,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
         for (uint k = from; k < endOfPairs(bundle); ++k) visit(bundle, k, 1);             \
         endBundle(bundle);                                                                \
     }
-#define SPHERULE_VISIT_ONE(bundle, k, count) visitPairs(pairs[k].x, SECOND_OF(pairs[k]), k)
+#define SPHERULE_VISIT_ONE(bundle, k, count) visitPairs(pairs[k].x, pairs[k].y, k)
 #define PAIR_KERNEL SPHERULE_PAIR_KERNEL(1U, SPHERULE_VISIT_ONE)
 
 #if defined(SPHERULE_LANES)
@@ -295,7 +295,8 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define EACH_LANE_VECTORS(where, function, number, more, a, b) \
     callForLanes(where, number, a, b, [&](uint ofLane, const vec3& x, const vec3& y) { function(ofLane, more, x, y); });
 #define EACH_LANE_NUMBER(where, function, more) callForLanes(where, [&](uint lane) { function(lane, more); });
-#define REMEMBERS(pairs, at) highestBits(pairs, at)
+#define REMEMBERS(pairs, b, at) highestBits(pairs, at)
+#define SLOTS_OF(b) (b)
 #define LANE_OF(value, lane) laneOf(value, lane)
 #define ROWS_UP_TO(first, end)             \
     uintRow {                              \
@@ -346,7 +347,8 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     if (where) function(number, more, a, b);
 #define EACH_LANE_NUMBER(where, function, more) \
     if (where) function(0, more);
-#define REMEMBERS(pairs, at) (((pairs)[at].y & PAIR_REMEMBERS) != 0)
+#define REMEMBERS(pairs, b, at) (((b)&PAIR_REMEMBERS) != 0)
+#define SLOTS_OF(b) ((b) & ~PAIR_REMEMBERS)
 #define LANE_OF(value, lane) (value)
 #define ROWS_UP_TO(first, end) (first)
 #define IN_ROWS(at) true
