@@ -28,7 +28,7 @@ def json_runner(call, device):
     return run_json
 
 
-def wait_for(condition, seconds=20):
+def wait_for(condition, seconds=60):
     """Waits until `condition()` is true, for at most `seconds`. Returns its last result."""
     end = time.monotonic() + seconds
     while not (result := condition()) and time.monotonic() < end:
