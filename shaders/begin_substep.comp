@@ -18,7 +18,6 @@ BUFFER(coherent, uint, bundles)
 BUFFER(readonly, uint, counters)
 
 #include "shared/drift.h"
-#include "shared/own_acceleration.h"
 
 // A sphere's own acceleration is a running mean over this many substeps. The value of a single substep makes an elastic
 // gas under gravity lose energy.

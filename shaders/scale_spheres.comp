@@ -4,7 +4,6 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
-#include "shared/own_acceleration.h"
 
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, angularVelocity)
