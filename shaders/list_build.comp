@@ -98,7 +98,8 @@ void reserve() {
 }
 
 LANE_BUNDLE_KERNEL(allCells() / 8u) {
-    if (spheresOfGroup(invocation, levelOfGroup(invocation)) == 0u) {
+    uvec4 cells = cellsOf(levelOfGroup(invocation));
+    if (spheresOfGroup(cells, placeOfGroup(cells, invocation)) == 0u) {
         if (FIRST_THREAD) groupRange[invocation] = uvec2(0u, 0u);
         return;
     }

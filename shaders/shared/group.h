@@ -105,49 +105,57 @@ void visitSphere(uint a, uint level, uint sampleSize, uint sampleRound) {
     if (sampledHere) sampled = sampled + 1u;
 }
 
-// The number of cell `k` (0 .. 7) of a group among the cells of all levels.
-uint cellOfGroup(uint group, uint level, uint k) {
-    uvec4 cells = cellsOf(level);
+// The place of a group's first cell among the cells of its level: x, y, z.
+uvec4 placeOfGroup(uvec4 cells, uint group) {
     uint gx = cells.x / 2u;
     uint gz = cells.z / 2u;
     uint at = group - firstCell(cells) / 8u;
-    uint x = 2u * (at % gx) + (k & 1u);
-    uint y = 2u * (at / (gx * gz)) + ((k >> 1u) & 1u);
-    uint z = 2u * ((at / gx) % gz) + (k >> 2u);
-    return cellIndex(cells, x, y, z);
+    return uvec4(2u * (at % gx), 2u * (at / (gx * gz)), 2u * ((at / gx) % gz), 0u);
 }
 
-uint spheresOfGroup(uint group, uint level) {
+// The place of cell `k` (0 .. 7) of a group.
+uvec4 placeInGroup(uvec4 group, uint k) {
+    return uvec4(group.x + (k & 1u), group.y + ((k >> 1u) & 1u), group.z + (k >> 2u), 0u);
+}
+
+uint cellAt(uvec4 cells, uvec4 place) {
+    return cellIndex(cells, place.x, place.y, place.z);
+}
+
+uint spheresOfGroup(uvec4 cells, uvec4 group) {
     uint spheres = 0u;
     for (uint k = 0u; k < 8u; ++k) {
-        uint cell = cellOfGroup(group, level, k);
+        uint cell = cellAt(cells, placeInGroup(group, k));
         spheres = spheres + cellStart[cell + 1u] - cellStart[cell];
     }
     return spheres;
 }
 
 // Visits the pairs of one of `shares` equal shares of the spheres of a group. `sampleRound` selects the share of the
-// pairs of an overfull cell that is visited. Successive rounds visit all of them in turn.
+// pairs of an overfull cell that is visited. Successive rounds visit all of them in turn. The outer loop is over
+// spheres, not over cells, so that threads whose spheres are in different cells visit them at the same time.
 void visitShareOfGroup(uint group, uint share, uint shares, uint sampleRound) {
     uint level = levelOfGroup(group);
     uvec4 cells = cellsOf(level);
-    uint spheres = spheresOfGroup(group, level);
+    uvec4 groupPlace = placeOfGroup(cells, group);
+    uint spheres = spheresOfGroup(cells, groupPlace);
     uint size = (spheres + shares - 1u) / shares;
-    uint from = min(share * size, spheres);
-    uint to = min(from + size, spheres);
-    uint before = 0u;  // spheres of the cells before
-    for (uint k = 0u; k < 8u && before < to; ++k) {
-        uint cell = cellOfGroup(group, level, k);
-        uint first = cellStart[cell];
-        uint count = cellStart[cell + 1u] - first;
-        uint a = first + max(from, before) - before;
-        uint end = first + min(to - before, count);
-        before = before + count;
-        if (a >= end) continue;
-        uint at = cell - firstCell(cells);
-        cellPlace = uvec4(at % cells.x, at / (cells.x * cells.z), (at / cells.x) % cells.z, 0u);
-        uint sampleSize = max(SAMPLE_LEAST, min(SAMPLE_VISITS / count, SAMPLE_MOST));
-        for (; a < end; ++a) visitSphere(a, level, sampleSize, sampleRound);
+    uint to = min((share + 1u) * size, spheres);
+    uint cell = 0u;        // of the group, the next one
+    uint endOfCell = 0u;   // the number of the spheres of the group up to the cell
+    uint first = 0u;       // the cell's spheres begin here
+    uint sampleSize = 0u;
+    for (uint k = share * size; k < to; ++k) {
+        while (k >= endOfCell) {
+            cellPlace = placeInGroup(groupPlace, cell);
+            uint at = cellAt(cells, cellPlace);
+            first = cellStart[at] - endOfCell;
+            uint count = cellStart[at + 1u] - cellStart[at];
+            sampleSize = max(SAMPLE_LEAST, min(SAMPLE_VISITS / max(count, 1u), SAMPLE_MOST));
+            endOfCell = endOfCell + count;
+            cell = cell + 1u;
+        }
+        visitSphere(first + k, level, sampleSize, sampleRound);
     }
 }
 
