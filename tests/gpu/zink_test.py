@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """zink_test.py FORM SPHERULE PROGRAM...: runs tests on a second OpenGL: Mesa's zink, which translates it to Vulkan,
 over Mesa's software renderer for Vulkan. The programs are gpu_device, bits_test and, with the FORM `all`,
-physics_tests. The FORM `short` runs the tests of SHORT; `all` runs all tests."""
+unit_encode. The FORM `short` runs the tests of SHORT; `all` runs all tests. bits_test and unit_encode compare zink with
+the CPU device, on which the physics tests run."""
 import glob
 import json
 import os
