@@ -111,7 +111,7 @@ TEST_P(FastPair, MeetsExactlyAtAnyPhase) {
             const glm::dvec3 change = parting - one.approach;
             if (GetParam().friction == 0)
                 sideways = std::max(sideways, glm::length(change - one.normal * glm::dot(change, one.normal)) / speed);
-            EXPECT_LT(kineticEnergyOf(after), kineticEnergyOf(before) * (1 + 1e-6));
+            EXPECT_LT(kineticEnergyOf(after), kineticEnergyOf(before) * (1 + 1e-6 * support::errorOfDivisions()));
         }
     }
     EXPECT_LT(restitution, 2e-5);
@@ -256,12 +256,15 @@ TEST_P(FastGas, CoolsByHaffsLaw) {
     RecordProperty("cooling", std::to_string(mean));
 }
 
+// Spheres of one size divide the same numbers in each impact. An error of this division therefore has the same sign in
+// all impacts. With perturbed arithmetic the energy changes by 1.7e-4 for each ulp at a density of 0.4, and a division
+// and two products err by up to 4 ulp.
 TEST_P(FastGas, KeepsItsEnergyAmongElasticWalls) {
     const scene::Scene scene = gas(GetParam(), 4, 1, 1);
     const auto simulation = simulate(scene);
     const double before = meanSquaredSpeed(simulation->snapshot());
     run(*simulation, 60 * unit());
-    EXPECT_NEAR(meanSquaredSpeed(simulation->snapshot()) / before, 1, 1e-4);
+    EXPECT_NEAR(meanSquaredSpeed(simulation->snapshot()) / before, 1, support::errorOfDivisions() == 1 ? 1e-4 : 7e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, FastGas,

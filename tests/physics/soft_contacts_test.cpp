@@ -237,7 +237,7 @@ TEST_P(SoftContacts, AreTheSameAfterRotationOfTheScene) {
         sphere.velocity = turned(sphere.velocity);
         sphere.spin = turned(sphere.spin);
     }
-    expectTheSame(rotationsAfter(rotated), rotationsAfter(scene), 0.001);
+    expectTheSame(rotationsAfter(rotated), rotationsAfter(scene), 0.001 * support::errorOfDivisions());
 }
 
 TEST_P(SoftContacts, AreTheSameForAnyOrderOfSpheres) {
