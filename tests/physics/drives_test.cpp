@@ -250,7 +250,8 @@ double weightOf(const scene::Scene& scene) {
 }
 
 // A piston on a bed: the floor bears both weights and the change of their momentum. Light and heavy pistons, over
-// seeds. The bed is at rest, except below the heavy piston in `accurate`, which swings on the springs for long.
+// seeds. After 4 s the bed is at rest, except below the heavy piston in `accurate`, which swings on the springs for
+// long. (After 2 s, beds of some seeds still settle.)
 TEST_P(Drives, FloorBearsAPistonAndItsBed) {
     for (const double mass : {0.02, 0.5, 10.0})
         for (const std::uint64_t seed : {81U, 82U, 83U}) {
@@ -260,7 +261,7 @@ TEST_P(Drives, FloorBearsAPistonAndItsBed) {
             const auto momentum = [&] {
                 return simulation->statistics().momentum.z + driveIn(*simulation).mass * driveIn(*simulation).rate;
             };
-            run(*simulation, soft() ? 1.5 : 4);
+            run(*simulation, soft() && mass > 1 ? 1.5 : 4);
             const double begin = simulation->time();
             const double momentumBefore = momentum();
             const sim::ContactSums before = *simulation->statistics().contactSums;
