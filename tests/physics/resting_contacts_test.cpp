@@ -85,7 +85,8 @@ TEST_P(RestingBedIn, IsStillWithoutFriction) {
 // A ball on three others, which only friction holds together. A smaller friction than 0.318 does not hold them.
 // Each of eight tetrahedra has another direction. In the rotated frame, the distance to the floor is rounded most.
 TEST_P(RestingBedIn, TetrahedraDoNotCreep) {
-    const double most = support::errorOfDivisions() == 1 ? creep : 2 * creep;  // 3.6e-5 m/s with perturbed arithmetic
+    // With perturbed arithmetic up to 4.2e-5 m/s over ten seeds.
+    const double most = support::errorOfDivisions() == 1 ? creep : 2.5 * creep;
     for (const double friction : {0.35, 0.5}) {
         SCOPED_TRACE(friction);
         scene::Scene scene = fineStepBox(4);
