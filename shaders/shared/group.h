@@ -113,7 +113,7 @@ uvec4 placeOfGroup(uvec4 cells, uint group) {
     return uvec4(2u * (at % gx), 2u * (at / (gx * gz)), 2u * ((at / gx) % gz), 0u);
 }
 
-// The place of cell `k` (0 .. 7) of a group.
+// The place of cell `k` (0 .. 7) of a group. `group`: the place of its first cell.
 uvec4 placeInGroup(uvec4 group, uint k) {
     return uvec4(group.x + (k & 1u), group.y + ((k >> 1u) & 1u), group.z + (k >> 2u), 0u);
 }
@@ -141,9 +141,9 @@ void visitShareOfGroup(uint group, uint share, uint shares, uint sampleRound) {
     uint spheres = spheresOfGroup(cells, groupPlace);
     uint size = (spheres + shares - 1u) / shares;
     uint to = min((share + 1u) * size, spheres);
-    uint cell = 0u;        // of the group, the next one
-    uint endOfCell = 0u;   // the number of the spheres of the group up to the cell
-    uint first = 0u;       // the cell's spheres begin here
+    uint cell = 0u;       // the next cell of the group (0 .. 8)
+    uint endOfCell = 0u;  // spheres in the cells before it
+    uint first = 0u;      // sphere `k` of the group has the place first + k; may wrap
     uint sampleSize = 0u;
     for (uint k = share * size; k < to; ++k) {
         while (k >= endOfCell) {

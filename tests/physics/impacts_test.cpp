@@ -61,8 +61,8 @@ TEST_P(Impacts, OfPairsAreCountedWithTheirRestitution) {
     EXPECT_EQ(simulation->statistics().impacts.count, 2) << "looking again adds nothing";
 }
 
-// A second impact of a sphere within a substep changes what is seen of the first. Each gas has about a
-// hundred impacts, of which up to three are seen wrong, so many gases are needed.
+// A second impact of a sphere within a substep changes what is seen of the first. Each gas has about a hundred impacts,
+// of which up to three are seen wrong, so many gases are needed.
 TEST_P(Impacts, OfAGasHaveTheRestitutionOfTheMaterials) {
     double count = 0;
     double seenRestitution = 0;
