@@ -34,6 +34,28 @@ nlohmann::json forcesOf(const sim::Statistics& statistics) {
     return forces;
 }
 
+nlohmann::ordered_json flowOf(const sim::FlowCounts& flow) {
+    return {{"spheres", flow.spheres},
+            {"mass", flow.mass},
+            {"spheresPerSecond", flow.spheresPerSecond},
+            {"massPerSecond", flow.massPerSecond}};
+}
+
+nlohmann::ordered_json emittersOf(const sim::Statistics& statistics) {
+    nlohmann::ordered_json emitters = nlohmann::ordered_json::array();
+    for (const sim::EmitterCounts& one : statistics.emitters)
+        emitters.push_back(
+            {{"name", one.name}, {"born", flowOf(one.born)}, {"blocked", one.blocked}, {"waiting", one.waiting}});
+    return emitters;
+}
+
+nlohmann::ordered_json sinksOf(const sim::Statistics& statistics) {
+    nlohmann::ordered_json sinks = nlohmann::ordered_json::array();
+    for (const sim::SinkCounts& one : statistics.sinks)
+        sinks.push_back({{"taken", flowOf(one.taken)}, {"byMaterial", one.byMaterial}});
+    return sinks;
+}
+
 nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulation& simulation,
                                 const Interval& interval) {
     const sim::Statistics& s = interval.end;
@@ -50,6 +72,8 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"spheres", simulation.count()},
         {"born", s.born},
         {"removed", s.removed},
+        {"emitters", emittersOf(s)},
+        {"sinks", sinksOf(s)},
         {"steps", simulation.steps()},
         {"substepsPerStep", simulation.scene().quality.substeps},
         {"simSeconds", simulation.time()},

@@ -34,16 +34,14 @@ Result<void> StateDump::write(sim::Simulation& simulation) {
     const glm::dvec3 centre = scene.bounds.centre();
     constexpr std::size_t part = 1U << 20U;  // bytes
     std::string text;
-    std::size_t group = 0;
     for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
-        while (group + 1 < scene.groups.size() && rank >= scene.groups[group + 1].first) ++group;
         const glm::dvec3 x = glm::dvec3(state.position[rank]) + centre;
         const glm::vec4& v = state.velocity[rank];
         const glm::vec4& w = state.spin[rank];
         fmt::format_to(std::back_inserter(text),
                        "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{}\n",
                        simulation.time(), state.idAt(rank), x.x, x.y, x.z, v.x, v.y, v.z, state.position[rank].w, w.x,
-                       w.y, w.z, scene.spheres[rank].material, group, std::signbit(v.w) ? 1 : 0, contacts[rank]);
+                       w.y, w.z, scene.spheres[rank].material, scene.spheres[rank].group, std::signbit(v.w) ? 1 : 0, contacts[rank]);
         if (text.size() < part) continue;
         if (auto done = file_.write(text); !done) return done;
         text.clear();

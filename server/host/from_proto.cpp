@@ -51,8 +51,9 @@ Result<sim::Set> setOf(const v1::Set& message) {
 
 sim::Spawn spawnOf(const v1::Spawn& message) {
     const v1::Group& group = message.group();
+    scene::Check unheard;  // buildGroup() reports the same errors
     return {.name = group.name(),
-            .look = scene::lookOf(group),
+            .look = scene::readLook(unheard, group, "group"),
             .place = [group](const scene::Scene& scene, Progress& progress) {
                 return scene::buildGroup(group, scene, &progress);
             }};

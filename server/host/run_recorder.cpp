@@ -5,6 +5,7 @@
 #include "codec/order.h"
 #include "core/heartbeat.h"
 #include "encode/morton.h"
+#include "host/facts_message.h"
 #include "host/to_proto.h"
 #include "sim/pass.h"
 

@@ -28,11 +28,11 @@ std::string openEnded(std::string object) {
 
 }  // namespace
 
-SavedScene::SavedScene(v1::Scene scene, std::vector<Run> groups, sim::State state, glm::dvec3 centre,
-                       memory::Claim claim)
+SavedScene::SavedScene(v1::Scene scene, std::vector<std::vector<std::uint32_t>> ranks, sim::State state,
+                       glm::dvec3 centre, memory::Claim claim)
     : claim_(std::move(claim)),
       scene_(std::move(scene)),
-      groups_(std::move(groups)),
+      ranks_(std::move(ranks)),
       state_(std::move(state)),
       centre_(centre) {}
 
@@ -60,20 +60,20 @@ std::string SavedScene::next() {
         head.clear_groups();
         text = openEnded(jsonOf(head)) + "\n\"groups\":[";
     }
-    if (group_ == groups_.size()) {
+    if (group_ == ranks_.size()) {
         if (!std::exchange(ended_, true)) text += "]}\n";
         return text;
     }
-    const Run& run = groups_[group_];
-    if (run.count == 0)
+    const std::vector<std::uint32_t>& ranks = ranks_[group_];
+    if (ranks.empty())
         text += (group_ > 0 ? ",\n" : "\n") + beginOf(group_) + "]}}";
     else if (done_ == 0)
         text += (group_ > 0 ? ",\n" : "\n") + beginOf(group_);
-    for (const std::size_t end = std::min(done_ + partSpheres, run.count); done_ < end; ++done_) {
-        appendSphere(text, run.first + done_);
-        text += done_ + 1 < run.count ? ",\n" : "\n]}}";
+    for (const std::size_t end = std::min(done_ + partSpheres, ranks.size()); done_ < end; ++done_) {
+        appendSphere(text, ranks[done_]);
+        text += done_ + 1 < ranks.size() ? ",\n" : "\n]}}";
     }
-    if (done_ == run.count) {
+    if (done_ == ranks.size()) {
         done_ = 0;
         ++group_;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,16 +14,12 @@
 
 namespace spherule::host {
 
-// The text of a scene file with the state of a simulation. `groups`: first rank and number of spheres of each group of
-// `scene`, which has no spheres itself.
+// The text of a scene file with the state of a simulation. `ranks`: of the spheres of each group of `scene`, which has
+// no spheres itself.
 class SavedScene : public net::Document {
   public:
-    struct Run {
-        std::size_t first = 0;
-        std::size_t count = 0;
-    };
     // `centre`: of the bounds. `claim`: for the memory of the state.
-    SavedScene(v1::Scene scene, std::vector<Run> groups, sim::State state, glm::dvec3 centre, memory::Claim claim);
+    SavedScene(v1::Scene scene, std::vector<std::vector<std::uint32_t>> ranks, sim::State state, glm::dvec3 centre, memory::Claim claim);
 
     std::string next() override;
 
@@ -32,7 +29,7 @@ class SavedScene : public net::Document {
 
     memory::Claim claim_;
     v1::Scene scene_;
-    std::vector<Run> groups_;
+    std::vector<std::vector<std::uint32_t>> ranks_;  // by group
     sim::State state_;
     glm::dvec3 centre_;
     bool begun_ = false;

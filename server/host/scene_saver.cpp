@@ -16,6 +16,14 @@ namespace {
 
 constexpr std::chrono::seconds period{1};
 
+std::vector<std::vector<std::uint32_t>> ranksByGroup(const scene::Scene& scene) {
+    std::vector<std::vector<std::uint32_t>> ranks(scene.groups.size());
+    for (std::size_t group = 0; group < ranks.size(); ++group) ranks[group].reserve(scene.groups[group].count);
+    for (std::uint32_t rank = 0; rank < scene.spheres.size(); ++rank)
+        ranks.at(scene.spheres[rank].group).push_back(rank);
+    return ranks;
+}
+
 }  // namespace
 
 void SceneSaver::refuse(const Made& made, int status, const std::string& text) {
@@ -68,15 +76,13 @@ void SceneSaver::serve(sim::Simulation& simulation) {
     auto claim = memory::Claim::make("", "a copy of the state", 2 * sim::copiesToHash(simulation.plan()));
     if (!claim) return fail(made, claim.error().text());
     const scene::Scene& scene = simulation.scene();
-    std::vector<SavedScene::Run> groups;
-    for (const scene::Group& group : scene.groups) groups.push_back({group.first, group.count});
     making_ = std::async(
-        std::launch::async, [this, made, claim = std::move(*claim), message = scene::describe(scene, simulation.time()),
-                             groups = std::move(groups), slots = simulation.pipeline().download(),
+        std::launch::async, [this, made, claim = std::move(*claim), message = scene::describe(scene, simulation.time(), simulation.flows().emission.born()),
+                             ranks = ranksByGroup(scene), slots = simulation.pipeline().download(),
                              population = simulation.population(), centre = scene.bounds.centre()]() mutable {
             std::shared_ptr<SavedScene> document;
             try {
-                document = std::make_shared<SavedScene>(std::move(message), std::move(groups),
+                document = std::make_shared<SavedScene>(std::move(message), std::move(ranks),
                                                         sim::inIdOrder(slots, population), centre, std::move(claim));
             } catch (const std::bad_alloc&) {
                 return fail(made, "there is no memory for a copy of the state: save the scene again when there is");

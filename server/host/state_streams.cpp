@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "encode/morton.h"
+#include "host/facts_message.h"
 #include "host/to_proto.h"
 
 namespace spherule::host {

@@ -6,7 +6,6 @@
 
 #include "compute/device.h"
 #include "core/result.h"
-#include "encode/places.h"
 #include "sim/commands.h"
 #include "sim/simulation.h"
 #include "spherule/v1/control.pb.h"
@@ -14,14 +13,6 @@
 // Converts values of the simulation to messages for clients.
 namespace spherule::host {
 
-v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch);
-// Returns the facts for clients that follow Population messages. `places`: of the present spheres. `population`: number
-// of the last Population message of the epoch.
-v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch, const encode::Places& places,
-                               std::uint32_t population);
-// Returns the message about a change. `groupsBefore`: groups of which clients know.
-v1::ServerMessage populationMessage(const sim::Simulation& simulation, const encode::Places::Change& change,
-                                    std::size_t groupsBefore);
 // Names the program and its device. Has no scenes.
 v1::Welcome welcomeOf(const compute::DeviceInfo& device);
 v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused);

@@ -28,14 +28,18 @@ bool set(glm::dvec3& target, const google::protobuf::RepeatedField<double>& from
 void setGroups(SphereTable& table, const v1::SceneFacts& facts) {
     table.groups.assign(facts.count(), -1);
     table.materials.assign(facts.count(), -1);
-    for (int k = 0; k < facts.groups_size(); ++k) {
-        const v1::GroupFacts& group = facts.groups(k);
-        if (group.first() > facts.count() || group.count() > facts.count() - group.first()) continue;
-        std::fill_n(table.groups.begin() + group.first(), group.count(), k);
-        if (group.has_material())
-            std::fill_n(table.materials.begin() + group.first(), group.count(),
-                        static_cast<std::int32_t>(group.material()));
-    }
+    const auto set = [&](std::uint32_t first, std::uint32_t count, std::uint32_t group) {
+        if (first > facts.count() || count > facts.count() - first) return;
+        if (group >= static_cast<std::uint32_t>(facts.groups_size())) return;
+        const v1::GroupFacts& from = facts.groups(static_cast<int>(group));
+        std::fill_n(table.groups.begin() + first, count, static_cast<std::int32_t>(group));
+        if (from.has_material())
+            std::fill_n(table.materials.begin() + first, count, static_cast<std::int32_t>(from.material()));
+    };
+    for (const v1::Places& places : facts.places()) set(places.first(), places.count(), places.group());
+    if (!facts.places().empty()) return;
+    for (int k = 0; k < facts.groups_size(); ++k)
+        set(facts.groups(k).first(), facts.groups(k).count(), static_cast<std::uint32_t>(k));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/memory.h"
+#include "scene/emitters.h"
 #include "scene/group.h"
 #include "scene/materials.h"
 #include "scene/occupancy.h"
@@ -23,8 +24,7 @@ namespace spherule::scene {
 namespace {
 
 double smallestRadiusOf(const std::vector<Sphere>& spheres) {
-    const auto byRadius = [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; };
-    return static_cast<double>(std::min_element(spheres.begin(), spheres.end(), byRadius)->radius);
+    return static_cast<double>(std::ranges::min_element(spheres, {}, &Sphere::radius)->radius);
 }
 
 // Returns the largest radius that the group draws; smallestRadius if it has no distribution of radii. Ignores errors:
@@ -66,7 +66,7 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
                                                  .taken = scene.spheres,
                                                  .occupancy = occupancy,
                                                  .room = maxSpheres - first});
-        scene.groups.push_back({group.name(), first, static_cast<std::uint32_t>(spheres.size()), lookOf(group)});
+        scene.groups.push_back(groupOf(spheres, group.name(), readLook(check, group, at("groups", i))));
         append(check, scene.spheres, std::move(spheres));
     }
 }
@@ -124,12 +124,13 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     if (check.ok()) scene.camera = readCamera(check, message.camera(), scene.bounds);
     if (message.has_light()) scene.light = readLight(check, message.light());
     if (check.ok()) readGroups(check, message, directory, overrides, scene);
-    if (check.ok() && !scene.spheres.empty()) {
-        checkResolution(check, scene, smallestRadiusOf(scene.spheres), "bounds");
-    }
+    if (check.ok()) readEmitters(check, message, overrides.seed, scene);
+    if (const double smallest = smallestRadiusIn(scene); check.ok() && smallest > 0)
+        checkResolution(check, scene, smallest, "bounds");
     if (check.ok())
         if (const auto fits = checkPeriodicAxes(scene); !fits) check.refuse(fits.error());
     if (check.ok()) readQuality(check, message.quality(), overrides, scene);
+    if (check.ok()) checkEmitterSpeeds(check, scene);
     if (!check.ok()) return check.error();
     return scene;
 }

@@ -1,6 +1,7 @@
 #include "scene/describe.h"
 
 #include "scene/check.h"
+#include "scene/emitters.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
 #include "scene/surroundings.h"
@@ -84,16 +85,14 @@ void setGroups(v1::Scene& message, const Scene& scene) {
         to.set_colour(group.look.colour);
         to.set_roughness(group.look.roughness);
         to.set_metal(group.look.metal);
-        if (group.count == 0) continue;
-        const Sphere& first = scene.spheres[group.first];
-        to.set_material(scene.materials[first.material].name);
-        to.set_fixed(first.fixed);
+        to.set_material(scene.materials[group.material].name);
+        to.set_fixed(group.fixed);
     }
 }
 
 }  // namespace
 
-v1::Scene describe(const Scene& scene, double time) {
+v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_t> born) {
     v1::Scene message;
     message.set_name(scene.name);
     message.set_description(scene.description);
@@ -101,6 +100,7 @@ v1::Scene describe(const Scene& scene, double time) {
     setMaterials(message, scene);
     setBounds(message, scene, time);
     setGroups(message, scene);
+    writeEmitters(message, scene, time, born);
     message.set_step(scene.step);
     v1::Quality& quality = *message.mutable_quality();
     quality.set_model(messageOf(scene.quality.model));

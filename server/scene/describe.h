@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "scene/scene.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {
 
 // Returns the scene as a message, with its present settings, from which build() makes the same scene. Its groups have
-// no spheres. `time`: s simulated; obstacles go on moving from there.
-v1::Scene describe(const Scene& scene, double time);
+// no spheres. `time`: s simulated; obstacles and emitters go on from there. `born`: spheres that each emitter has made.
+v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_t> born = {});
 
 }  // namespace spherule::scene

@@ -19,6 +19,9 @@ double strongestAcceleration(const Scene& scene) {
     for (std::size_t id = 0; id < scene.spheres.size(); id += stride)
         if (!scene.spheres[id].fixed)
             strongest = std::max(strongest, glm::length(scene.forces.accelerationAt(scene.spheres[id].position)));
+    for (const Emitter& emitter : scene.emitters)
+        for (const Sphere& sphere : emitter.samples)
+            strongest = std::max(strongest, glm::length(scene.forces.accelerationAt(sphere.position)));
     return strongest;
 }
 

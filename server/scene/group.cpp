@@ -123,10 +123,18 @@ bool addTaken(Check& check, std::span<const Sphere> taken, Occupancy& occupancy)
     return check.ok();
 }
 
-Look lookOf(const v1::Group& message) {
-    Look look{.colour = message.colour(), .metal = message.metal()};
-    if (message.has_roughness()) look.roughness = message.roughness();
-    return look;
+void checkName(Check& check, const std::string& name, std::string_view field) {
+    if (name.size() > longestName)
+        check.refuse(std::string(field), fmt::format("is {} bytes long, must be at most {}", name.size(), longestName));
+}
+
+Group groupOf(std::span<const Sphere> spheres, std::string name, Look look) {
+    Group group{.name = std::move(name), .count = static_cast<std::uint32_t>(spheres.size()), .look = std::move(look)};
+    if (!spheres.empty()) {
+        group.material = spheres.front().material;
+        group.fixed = spheres.front().fixed;
+    }
+    return group;
 }
 
 std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context) {
@@ -140,18 +148,15 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     input.spin = check.vectorOr(message.spin(), {}, at(context.field, "spin"));
     const std::uint8_t material =
         materialNamed(check, message.material(), scene.materials, at(context.field, "material"));
-    check.colour(message.colour(), at(context.field, "colour"));
-    if (message.has_roughness()) check.within(message.roughness(), 0, 1, at(context.field, "roughness"));
-    check.within(message.metal(), 0, 1, at(context.field, "metal"));
-    if (message.name().size() > longestName)
-        check.refuse(at(context.field, "name"),
-                     fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
+    readLook(check, message, context.field);
+    checkName(check, message.name(), at(context.field, "name"));
     if (!check.ok()) return {};
 
     std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));
     for (Sphere& sphere : spheres) {
         sphere.material = material;
         sphere.fixed = message.fixed();
+        sphere.group = static_cast<std::uint16_t>(scene.groups.size());
     }
     if (message.fixed()) checkAtRest(check, message, source, spheres);
     if (check.ok()) checkWork(check, scene, source, context.taken.size() + spheres.size());
@@ -159,24 +164,37 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     return spheres;
 }
 
+void removeEmptyGroups(Scene& scene) {
+    std::vector<bool> kept(scene.groups.size());
+    for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = scene.groups[k].count > 0;
+    for (const Emitter& emitter : scene.emitters) kept[emitter.group] = true;
+    std::vector<std::uint16_t> numbers(kept.size());
+    std::vector<Group> groups;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        numbers[k] = static_cast<std::uint16_t>(groups.size());
+        if (kept[k]) groups.push_back(std::move(scene.groups[k]));
+    }
+    scene.groups = std::move(groups);
+    for (Sphere& sphere : scene.spheres) sphere.group = numbers[sphere.group];
+    for (Emitter& emitter : scene.emitters) {
+        emitter.group = numbers[emitter.group];
+        for (Sphere& sample : emitter.samples) sample.group = emitter.group;
+    }
+}
+
 void removeSpheres(Scene& scene, const std::vector<std::uint32_t>& numbers) {
     auto next = numbers.begin();
     std::uint32_t kept = 0;
     for (std::uint32_t k = 0; k < scene.spheres.size(); ++k) {
-        if (next != numbers.end() && *next == k)
+        const Sphere& sphere = scene.spheres[k];
+        if (next != numbers.end() && *next == k) {
+            if (sphere.group < scene.groups.size()) --scene.groups[sphere.group].count;
             ++next;
-        else
-            scene.spheres[kept++] = scene.spheres[k];
+        } else {
+            scene.spheres[kept++] = sphere;
+        }
     }
     scene.spheres.resize(kept);
-    for (Group& group : scene.groups) {
-        const auto before = [&](std::uint32_t end) {
-            return static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, end) - numbers.begin());
-        };
-        const std::uint32_t end = group.first + group.count;
-        group.count -= before(end) - before(group.first);
-        group.first -= before(group.first);
-    }
 }
 
 }  // namespace spherule::scene

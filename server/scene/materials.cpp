@@ -127,12 +127,12 @@ bool hasWalls(const Scene& scene) {
 std::vector<ContactParameters> actingContactParameters(const Scene& scene) {
     std::set<std::uint8_t> spheres;
     std::set<std::uint8_t> surfaces;
-    for (const Sphere& sphere : scene.spheres)
+    forEachSphere(scene, [&](const Sphere& sphere, double /*weight*/) {
         if (!sphere.fixed) spheres.insert(sphere.material);
+        if (scene.sphereContacts) surfaces.insert(sphere.material);
+    });
     if (hasWalls(scene)) surfaces.insert(scene.bounds.material);
     for (const Obstacle& obstacle : scene.obstacles) surfaces.insert(obstacle.material);
-    if (scene.sphereContacts)
-        for (const Sphere& sphere : scene.spheres) surfaces.insert(sphere.material);
     std::vector<ContactParameters> contacts;
     for (const std::uint8_t a : spheres)
         for (const std::uint8_t b : surfaces) contacts.push_back(contactParametersBetween(scene, a, b));

@@ -62,11 +62,8 @@ Result<void> checkObstacles(const Scene& scene) {
                      fmt::format("is one too many: {} spheres and {} obstacles are {} pairs, but a scene "
                                  "holds at most {}",
                                  scene.spheres.size(), count, count * scene.spheres.size(), maxObstaclePairs));
-    if (check.ok() && !scene.spheres.empty()) {
-        const auto smaller = [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; };
-        const float smallest = std::ranges::min_element(scene.spheres, smaller)->radius;
-        checkResolution(check, scene, static_cast<double>(smallest), "bounds");
-    }
+    if (const double smallest = smallestRadiusIn(scene); check.ok() && smallest > 0)
+        checkResolution(check, scene, smallest, "bounds");
     checkMeshParts(check, scene.obstacles);
     if (!check.ok()) return check.error();
     if (auto fits = checkPeriodicAxes(scene); !fits) return fits;

@@ -24,20 +24,12 @@ constexpr double softest = 0.5;  // of the radius
 
 constexpr std::array<std::string_view, 3> modelNames = {"fast", "balanced", "accurate"};
 
-double smallestRadius(const Scene& scene) {
-    double smallest = 0;
-    for (const Sphere& sphere : scene.spheres)
-        if (smallest == 0 || static_cast<double>(sphere.radius) < smallest)
-            smallest = static_cast<double>(sphere.radius);
-    return smallest;
-}
-
 // h = min(1/480 s, sqrt(8.5e-4 r_min / a)) with the strongest acceleration a: keeps the mean overlap of a bed under a
 // hundredth of the radius.
 double balancedSubstep(const Scene& scene) {
     constexpr double longest = 1.0 / 480;
     const double acceleration = strongestAcceleration(scene);
-    const double radius = smallestRadius(scene);
+    const double radius = smallestRadiusIn(scene);
     return acceleration > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / acceleration)) : longest;
 }
 
@@ -65,6 +57,15 @@ Scene withFreeSubsteps(const Scene& scene, Model model) {
 }
 
 }  // namespace
+
+double smallestRadiusIn(const Scene& scene) {
+    double smallest = 0;
+    forEachSphere(scene, [&](const Sphere& sphere, double /*weight*/) {
+        if (smallest == 0 || static_cast<double>(sphere.radius) < smallest)
+            smallest = static_cast<double>(sphere.radius);
+    });
+    return smallest;
+}
 
 std::string_view nameOf(Model model) {
     return modelNames.at(static_cast<std::size_t>(model));
@@ -175,9 +176,7 @@ Result<void> checkSpeeds(const Scene& scene, std::size_t first) {
         const double speed = glm::length(glm::dvec3(sphere.velocity));
         const double most = radiiPerSecond * static_cast<double>(sphere.radius);
         if (speed <= most) continue;
-        const auto group = std::ranges::find_if(
-            scene.groups, [&](const Group& one) { return id >= one.first && id - one.first < one.count; });
-        return fail(ErrorKind::Input, at("groups", static_cast<std::size_t>(group - scene.groups.begin())),
+        return fail(ErrorKind::Input, at("groups", sphere.group),
                     fmt::format("has a sphere of radius {:g} m with {:g} m/s, the fastest that this scene can compute "
                                 "is {:g} m/s; make it slower or larger, or shorten the step",
                                 static_cast<double>(sphere.radius), speed, most));
@@ -186,7 +185,7 @@ Result<void> checkSpeeds(const Scene& scene, std::size_t first) {
 }
 
 Result<void> checkObstacleSpeeds(const Scene& scene) {
-    const double most = maxSpeed(scene, smallestRadius(scene));
+    const double most = maxSpeed(scene, smallestRadiusIn(scene));
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
         const double speed = scene.obstacles[k].largestSpeed(scene.bounds);
         if (speed <= most || !(most > 0)) continue;
@@ -195,7 +194,7 @@ Result<void> checkObstacleSpeeds(const Scene& scene) {
             fmt::format(
                 "moves its surface at up to {:.6g} m/s; with a smallest radius of {:g} m, the scene can compute "
                 "{:.6g} m/s: make it slower, or shorten the step",
-                speed, smallestRadius(scene), most),
+                speed, smallestRadiusIn(scene), most),
             Cause::Range, {.least = 0, .most = most});
     }
     return {};

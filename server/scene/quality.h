@@ -15,6 +15,9 @@ std::optional<Model> modelNamed(std::string_view name);
 Model modelOf(v1::Model message);  // `message` must not be MODEL_UNSPECIFIED
 v1::Model messageOf(Model model);
 
+// Returns the smallest radius of the spheres that the scene has and may get from emitters (m); 0 without any.
+double smallestRadiusIn(const Scene& scene);
+
 // Returns an error if the materials lack a value that the model needs.
 Result<void> checkModel(const Scene& scene);
 

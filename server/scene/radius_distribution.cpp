@@ -4,6 +4,9 @@
 
 #include <string>
 
+#include "scene/check.h"
+#include "spherule/v1/scene.pb.h"
+
 namespace spherule::scene {
 
 namespace {

@@ -3,11 +3,15 @@
 #include <optional>
 #include <string_view>
 
-#include "scene/check.h"
 #include "scene/random.h"
-#include "spherule/v1/scene.pb.h"
+
+namespace spherule::v1 {
+class Radius;
+}
 
 namespace spherule::scene {
+
+class Check;
 
 constexpr double smallestRadius = 1e-6;  // m
 constexpr double largestRadius = 1e6;    // m

@@ -11,21 +11,15 @@
 
 #include <glm/vec3.hpp>
 
+#include "scene/box.h"
+#include "scene/emitter.h"
 #include "scene/forces.h"
 #include "scene/motion.h"
+#include "scene/sphere.h"
 
 namespace spherule::scene {
 
-// A validated scene, in SI units and world coordinates. `spheres` are in the order of their ids.
-
-struct Sphere {
-    glm::dvec3 position{};      // m
-    glm::vec3 velocity{};       // m/s
-    float radius = 0;           // m
-    std::uint8_t material = 0;  // index into Scene::materials
-    bool fixed = false;         // infinite mass: nothing moves it
-    glm::vec3 spin{};           // angular velocity, rad/s
-};
+// A validated scene, in SI units and world coordinates.
 
 struct Material {
     std::string name{};
@@ -75,9 +69,10 @@ struct Look {
 
 struct Group {
     std::string name;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
+    std::uint32_t count = 0;  // of its spheres
     Look look;
+    std::uint8_t material = 0;  // of its spheres: index into Scene::materials
+    bool fixed = false;         // as of its spheres
 };
 
 enum Face : std::uint8_t { XMin, XMax, YMin, YMax, ZMin, ZMax };
@@ -114,16 +109,6 @@ inline glm::dvec3 separation(const glm::dvec3& a, const glm::dvec3& b, const glm
         if (periods[axis] > 0) d[axis] -= periods[axis] * std::floor(d[axis] / periods[axis] + 0.5);
     return d;
 }
-
-struct Box {
-    glm::dvec3 min{};
-    glm::dvec3 max{};
-
-    // The faces belong to the box.
-    [[nodiscard]] bool contains(const glm::dvec3& p) const {
-        return p.x >= min.x && p.y >= min.y && p.z >= min.z && p.x <= max.x && p.y <= max.y && p.z <= max.z;
-    }
-};
 
 class Shape;
 
@@ -172,7 +157,8 @@ struct Scene {
     Bounds bounds;
     std::vector<Obstacle> obstacles;
     std::vector<Group> groups;
-    std::vector<Sphere> spheres;
+    std::vector<Sphere> spheres;            // in the order of their ids
+    std::vector<Emitter> emitters;
     std::vector<Material> materials{Material{}};  // at least one
     std::vector<MaterialPair> pairs;
     double step = 1.0 / 60;  // s
@@ -186,7 +172,30 @@ struct Scene {
     double time = 0;           // s simulated: new spheres are placed beside obstacles as they are then
 };
 
+// Calls visit(sphere, weight) for each sphere of the scene, and for samples of those that emitters make. `weight`: how
+// many spheres it stands for.
+template <class Visit>
+void forEachSphere(const Scene& scene, Visit visit) {
+    for (const Sphere& sphere : scene.spheres) visit(sphere, 1.0);
+    for (const Emitter& emitter : scene.emitters)
+        for (const Sphere& sphere : emitter.samples)
+            visit(sphere, emitter.expected / static_cast<double>(emitter.samples.size()));
+}
+
+// Returns true if the scene has spheres, or may get some from emitters.
+inline bool mayHaveAny(const Scene& scene) {
+    return !scene.spheres.empty() || !scene.emitters.empty();
+}
+
+// Returns true if two spheres may be in the scene at the same time.
+inline bool mayHaveTwo(const Scene& scene) {
+    return scene.spheres.size() > 1 || !scene.emitters.empty();
+}
+
 // Removes the spheres with these numbers, in ascending order, from the scene and its groups.
 void removeSpheres(Scene& scene, const std::vector<std::uint32_t>& numbers);
+
+// Removes the groups without spheres, but not the groups of emitters. The other groups get new numbers.
+void removeEmptyGroups(Scene& scene);
 
 }  // namespace spherule::scene

@@ -47,8 +47,9 @@ bool meetsFixed(const Scene& scene) {
 
 std::set<std::uint8_t> materialsOfSpheres(const Scene& scene) {
     std::set<std::uint8_t> used;
-    for (const Sphere& sphere : scene.spheres)
+    forEachSphere(scene, [&](const Sphere& sphere, double /*weight*/) {
         if (!sphere.fixed) used.insert(sphere.material);
+    });
     return used;
 }
 
@@ -81,8 +82,8 @@ Extremes extremesOf(const Scene& scene) {
     const glm::dvec3 up = g > 0 ? -scene.forces.gravity / g : glm::dvec3(0);
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
     const double floor = -glm::dot(glm::abs(up), half);
-    for (const Sphere& sphere : scene.spheres) {
-        if (sphere.fixed) continue;
+    forEachSphere(scene, [&](const Sphere& sphere, double weight) {
+        if (sphere.fixed) return;
         const auto r = static_cast<double>(sphere.radius);
         found.smallest = std::min(found.smallest, r);
         found.largest = std::max(found.largest, r);
@@ -91,11 +92,11 @@ Extremes extremesOf(const Scene& scene) {
         found.fall = std::max(found.fall, glm::dot(sphere.position - scene.bounds.centre(), up) - floor);
         if (!scene.forces.fields.empty())
             found.potential = std::max(found.potential, scene.forces.fieldPotentialAt(sphere.position));
-        found.volume += 4.0 / 3 * pi * r * r * r;
+        found.volume += weight * 4.0 / 3 * pi * r * r * r;
         const double density = scene.materials[sphere.material].density;
         found.densest = std::max(found.densest, density);
         found.lightest = std::min(found.lightest, density);
-    }
+    });
     return found;
 }
 
@@ -167,8 +168,9 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     glm::dvec3 common(0);
     if (!stopped || !surfacesRub(scene)) common = alongSurfaces(scene, 0.5 * (extremes.slowest + extremes.fastest));
     double speed = 0;
-    for (const Sphere& sphere : scene.spheres)
+    forEachSphere(scene, [&](const Sphere& sphere, double /*weight*/) {
         speed = std::max(speed, glm::length(glm::dvec3(sphere.velocity) - common));
+    });
     // An obstacle throws a sphere at up to twice its own speed, and its belt carries one along.
     double thrown = 0;
     for (const Obstacle& obstacle : scene.obstacles)
@@ -177,7 +179,7 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     speed += thrown;
     const double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
     const double drop = fieldDrop(scene, extremes);
-    if (scene.sphereContacts && scene.spheres.size() > 1)
+    if (scene.sphereContacts && mayHaveTwo(scene))
         fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall + 4 * drop);
     if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall + drop);
     // If nothing moves or falls, a slow speed is derived from the step.
@@ -317,7 +319,7 @@ std::optional<TooSoft> tooSoft(const Scene& scene) {
     };
     for (const std::uint8_t a : materialsOfSpheres(scene)) {
         for (const std::uint8_t b : materialsOfSurfaces(scene)) look(a, b, true);
-        if (!scene.sphereContacts || scene.spheres.size() < 2) continue;
+        if (!scene.sphereContacts || !mayHaveTwo(scene)) continue;
         for (const std::uint8_t b : materialsOfSpheres(scene)) look(a, b, false);
     }
     return worst;

@@ -85,8 +85,8 @@ void checkMeshParts(Check& check, const std::vector<Obstacle>& obstacles) {
         }
 }
 
-void checkResolution(Check& check, const Scene& scene, double smallestRadius, std::string_view field) {
-    const double allowed = 1e-4 * smallestRadius;
+void checkResolution(Check& check, const Scene& scene, double smallest, std::string_view field) {
+    const double allowed = 1e-4 * smallest;
     const glm::dvec3 side = scene.bounds.max - scene.bounds.min;
     const double longest = std::max({side.x, side.y, side.z});
     const double resolution = 0.5 * longest * 0x1p-23;
@@ -95,7 +95,7 @@ void checkResolution(Check& check, const Scene& scene, double smallestRadius, st
             std::string(field),
             fmt::format("have a side of {} m, where float32 resolves {:.3g} m; the smallest radius of {:.6g} m needs "
                         "{:.3g} m: make them at most {:.6g} m long, or enlarge spheres",
-                        longest, resolution, smallestRadius, allowed, allowed * 0x1p24));
+                        longest, resolution, smallest, allowed, allowed * 0x1p24));
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
         const Obstacle& obstacle = scene.obstacles[k];
         // An obstacle that moves lies in a frame about its pivot.
@@ -108,7 +108,7 @@ void checkResolution(Check& check, const Scene& scene, double smallestRadius, st
                 at("obstacles", k),
                 fmt::format("reaches {:.6g} m from the centre of the bounds, where float32 resolves {:.3g} m; the "
                             "smallest radius of {:.6g} m needs {:.3g} m: make it smaller, or enlarge spheres",
-                            largest, largest * 0x1p-23, smallestRadius, allowed));
+                            largest, largest * 0x1p-23, smallest, allowed));
     }
 }
 

@@ -42,6 +42,8 @@ enum class Extent : std::uint8_t {
     Counter,
     StatisticBlock,
     PullRow,         // PULL_ROWS for each of MOST_PULLS
+    BirthRow,        // BIRTH_CHUNK_ROWS for each chunk of MOST_BIRTH_PLACES
+    BirthPlace,      // each of MOST_BIRTH_PLACES
     SurfaceSumWord,  // SURFACE_SUM_WORDS for each copy of each surface
     InspectedWord,   // of one sphere: see layout.h
 };

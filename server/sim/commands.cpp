@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scene/group.h"
 #include "scene/load.h"
 #include "scene/materials.h"
 #include "scene/quality.h"
@@ -102,12 +103,11 @@ Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State st
         if (glm::dot(now, now) < maxDistance * maxDistance) scene.spheres[id].position = now + centre;
     }
     // Groups whose spheres are all gone make way for new ones.
-    if (scene.groups.size() >= scene::maxGroups)
-        std::erase_if(scene.groups, [](const auto& one) { return one.count == 0; });
+    if (scene.groups.size() >= scene::maxGroups) scene::removeEmptyGroups(scene);
     auto added = spawn.place(scene, progress);
     if (!added) return tl::unexpected(added.error());
     if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
-    scene.groups.push_back({spawn.name, state.count(), static_cast<std::uint32_t>(added->size()), spawn.look});
+    scene.groups.push_back(scene::groupOf(*added, spawn.name, spawn.look));
     state.append(stateOf(scene, *added));
     scene.spheres.insert(scene.spheres.end(), added->begin(), added->end());
     if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());

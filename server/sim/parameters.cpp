@@ -48,7 +48,10 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
         if (scene.bounds.open[face]) p.openFaces |= 1U << face;
     }
     p.materials = static_cast<std::uint32_t>(scene.materials.size());
-    p.material = scene.spheres.empty() ? 0U : scene.spheres.front().material;
+    if (!scene.spheres.empty())
+        p.material = scene.spheres.front().material;
+    else if (!scene.emitters.empty())
+        p.material = scene.emitters.front().material;
     p.wallMaterial = scene.bounds.material;
     p.maxWallHistory = plan.maxWallHistory;
     const layout::ContactParams sphereContact = contactParamsFor(

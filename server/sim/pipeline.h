@@ -133,6 +133,12 @@ class Pipeline {
     // Position (m, relative to the centre of the bounds) and radius of a sphere. Waits for the device.
     [[nodiscard]] glm::vec4 positionOf(std::uint32_t handle);
 
+    // Makes what takenPlaces() needs, unless it exists.
+    Result<void> makeBirths();
+    // Returns for each place for a new sphere (position relative to the centre of the bounds, and radius, m) whether a
+    // sphere overlaps it; at most MOST_BIRTH_PLACES. makeBirths() must have been called. Waits for the device.
+    std::vector<bool> takenPlaces(std::span<const glm::vec4> places);
+
     // Wakes all spheres. Waits for the device.
     void wakeAll();
 
@@ -198,7 +204,8 @@ class Pipeline {
     std::vector<BoundLaunch> substep_, newSubstep_, statistics_, stepEnd_;
     std::vector<BoundLaunch> figures_, inspection_;  // empty until they are first needed
     const LaunchSpec pullSpec_{.pass = Pass::Integrate, .kernel = "pull.comp", .count = MOST_PULLS};
-    std::vector<BoundLaunch> pulls_;  // empty until a sphere is pulled
+    std::vector<BoundLaunch> pulls_;   // empty until a sphere is pulled
+    std::vector<BoundLaunch> births_;  // empty until a sphere is to be born
     bool pulling_ = false;
     float substepLength_ = 0;                     // s; 0: none yet
     static constexpr unsigned substepsAhead = 2;  // that the host launches before it needs COUNTER_REBUILD of the first

@@ -94,6 +94,10 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
             return blocksOf(plan.room, STATISTIC_BLOCK);
         case Extent::PullRow:
             return std::uint64_t{MOST_PULLS} * PULL_ROWS;
+        case Extent::BirthRow:
+            return std::uint64_t{MOST_BIRTH_PLACES} / BIRTH_CHUNK * BIRTH_CHUNK_ROWS;
+        case Extent::BirthPlace:
+            return MOST_BIRTH_PLACES;
         case Extent::SurfaceSumWord:
             return std::uint64_t{scene::surfacesOf(scene)} * surfaceSumWords + driveSumWords(scene);
         case Extent::InspectedWord:
@@ -143,14 +147,15 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
 
 void updateLaunches(Plan& plan) {
     for (auto* launches :
-         {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd, &plan.figures, &plan.inspection})
+         {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd, &plan.figures, &plan.inspection,
+          &plan.births})
         for (LaunchSpec& launch : *launches) {
             if (launch.launchRow) launch.count = plan.dispatchSizes.at(*launch.launchRow);
             if (launch.over != Varying::Nothing) launch.count = invocationsOver(launch.over, plan);
         }
 }
 
-// Adds the launches that only viewers ask for.
+// Adds the launches that only viewers and emitters ask for.
 void addRequests(Plan& plan) {
     const std::vector<Alias> aliases{{"touching", touchingArray}, {"deepest", deepestArray}};
     const auto over = [](Varying what, std::string_view kernel, std::vector<Alias> bound) {
@@ -164,6 +169,7 @@ void addRequests(Plan& plan) {
     plan.figures.push_back(over(Varying::Spheres, "figures.comp", aliases));
     plan.figures.back().aliases.push_back({"figures", figuresArray});
     plan.inspection.push_back(over(Varying::Spheres, "inspect.comp", {}));
+    plan.births.push_back(over(Varying::Spheres, "birth_places.comp", {}));
     updateLaunches(plan);
 }
 

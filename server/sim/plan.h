@@ -78,6 +78,7 @@ struct Plan {
     std::vector<LaunchSpec> stepEnd;             // at the end of a step
     std::vector<LaunchSpec> figures;             // when viewers ask for them: the figures of each sphere
     std::vector<LaunchSpec> inspection;          // likewise: what one sphere touches
+    std::vector<LaunchSpec> births;              // when emitters look for places
     std::vector<std::uint32_t> dispatchSizes;    // `count` of the launches per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;

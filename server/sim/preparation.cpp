@@ -134,6 +134,8 @@ Result<void> Preparation::makeNext() {
     const auto more = pipeline_->makeNext();
     if (!more) return tl::unexpected(more.error());
     if (*more) return {};
+    if (!built_.scene.emitters.empty())
+        if (auto made = pipeline_->makeBirths(); !made) return made;
     // The arrays are allocated now, no longer promised.
     const Plan& plan = pipeline_->plan();
     const MemoryNeeds need = memoryNeedsOf(plan);

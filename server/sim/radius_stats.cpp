@@ -20,14 +20,17 @@ std::vector<SizeClass> binsOf(const scene::Scene& scene, const RadiusStats& radi
     const double range = std::log(radii.largest / radii.smallest);
     const double wide = std::max(std::log(narrowestBin), range / mostBins);
     std::vector<SizeClass> bins(mostBins);
-    for (const scene::Sphere& sphere : scene.spheres) {
+    std::vector<double> spheres(mostBins);
+    scene::forEachSphere(scene, [&](const scene::Sphere& sphere, double weight) {
         const auto r = static_cast<double>(sphere.radius);
-        const int place = std::clamp(static_cast<int>(std::log(r / radii.smallest) / wide), 0, mostBins - 1);
-        SizeClass& mine = bins[static_cast<std::size_t>(place)];
-        mine.smallest = mine.spheres == 0 ? r : std::min(mine.smallest, r);
+        const auto place = static_cast<std::size_t>(
+            std::clamp(static_cast<int>(std::log(r / radii.smallest) / wide), 0, mostBins - 1));
+        SizeClass& mine = bins[place];
+        mine.smallest = spheres[place] == 0 ? r : std::min(mine.smallest, r);
         mine.largest = std::max(mine.largest, r);
-        ++mine.spheres;
-    }
+        spheres[place] += weight;
+    });
+    for (std::size_t k = 0; k < bins.size(); ++k) bins[k].spheres = static_cast<std::uint32_t>(std::ceil(spheres[k]));
     std::erase_if(bins, [](const SizeClass& one) { return one.spheres == 0; });
     return bins;
 }
@@ -93,19 +96,20 @@ std::vector<SizeClass> classesOf(const scene::Scene& scene, const RadiusStats& r
 
 RadiusStats radiusStatsOf(const scene::Scene& scene) {
     constexpr double packing = 0.6;
-    if (scene.spheres.empty()) return {0.05, 0.05, 0.05, 0.05, {{0.05, 0.05, 0}}};
+    if (!scene::mayHaveAny(scene)) return {0.05, 0.05, 0.05, 0.05, {{0.05, 0.05, 0}}};
     RadiusStats radii{1e30, 0, 0, 0, {}};
     double inverses = 0;
     double cubes = 0;
-    const auto count = static_cast<double>(scene.spheres.size());
-    for (const scene::Sphere& sphere : scene.spheres) {
+    auto count = static_cast<double>(scene.spheres.size());
+    for (const scene::Emitter& emitter : scene.emitters) count += emitter.expected;
+    scene::forEachSphere(scene, [&](const scene::Sphere& sphere, double weight) {
         const auto r = static_cast<double>(sphere.radius);
         radii.smallest = std::min(radii.smallest, r);
         radii.largest = std::max(radii.largest, r);
-        radii.mean += r / count;
-        inverses += 1 / (r * r * r * count);
-        cubes += r * r * r;
-    }
+        radii.mean += weight * r / count;
+        inverses += weight / (r * r * r * count);
+        cubes += weight * r * r * r;
+    });
     radii.listing = 1 / std::cbrt(inverses);
     radii.classes = classesOf(scene, radii, ball * cubes / packing);
     return radii;

@@ -40,6 +40,7 @@ std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> prepar
     std::unique_ptr<Simulation> simulation(new Simulation(preparation->device_));
     simulation->initial_ = preparation->built_.scene;
     simulation->population_ = Population(preparation->built_.state.count());
+    simulation->flows_ = Flows(preparation->built_.scene);
     simulation->install(*preparation);
     return simulation;
 }
@@ -125,6 +126,7 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
         remainderBegin_ = substepsLeft_ = 0;
         pulls_.clear();
         population_ = Population(spheres);
+        flows_ = Flows(preparation->built_.scene);
     } else {
         newHandles = !population_.plain();
         population_.add(spheres - population_.count(), steps_);
@@ -216,6 +218,7 @@ Statistics Simulation::statistics() {
     now.spheres = count();
     now.born = population_.born();
     now.removed = population_.removed();
+    flows_.addTo(now, scene_);
     addImpacts(impacts_, *pipeline_);
     now.impacts = impacts_;
     if (hasContactSums()) {
@@ -252,6 +255,7 @@ Result<void> Simulation::checkStep() {
         growPairs();
     limitMotionPerSubstep(std::max(counters_.largestMotion, motionOfObstacles()));
     if (counters_.sunk > 0 && !counters_.nonFinite) emptySinks();
+    if (!scene_.emitters.empty() && !counters_.nonFinite) emit();
     const double since = static_cast<double>(steps_ - lastFiniteStep_) * scene_.step;
     if (!counters_.nonFinite && since > saveInterval - 0.5 * scene_.step) saveLastFinite();
     return {};
@@ -261,6 +265,7 @@ void Simulation::saveLastFinite() {
     pipeline_->keepState();
     lastFiniteStep_ = steps_;
     lastFiniteDrives_ = drives_->states(scene_);
+    lastFiniteFlows_ = flows_;
     lastFiniteSpheres_.reset();
     takeContactSums();  // also keeps the sums of the device short
     lastFiniteSums_ = contactSums_;
@@ -297,6 +302,7 @@ void Simulation::rollback() {
     upload(kept);
     steps_ = lastFiniteStep_;
     drives_->restore(scene_, lastFiniteDrives_, time());
+    flows_ = lastFiniteFlows_;
     counters_ = {};
     contactSums_ = lastFiniteSums_;
     const double elasticBefore = elasticBefore_;

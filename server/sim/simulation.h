@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "scene/scene.h"
 #include "sim/commands.h"
 #include "sim/drives.h"
+#include "sim/flows.h"
 #include "sim/obstacle_rows.h"
 #include "sim/pipeline.h"
 #include "sim/plan.h"
@@ -114,6 +116,7 @@ class Simulation {
     [[nodiscard]] std::uint32_t count() const { return population_.count(); }
     // Ids, ranks and handles of the spheres. scene().spheres is in the order of ids too.
     [[nodiscard]] const Population& population() const { return population_; }
+    [[nodiscard]] const Flows& flows() const { return flows_; }
     // Counts births from `id` on. Only before a sphere was added or removed.
     void setFirstId(std::uint64_t id) { population_ = Population(count(), id); }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
@@ -133,7 +136,12 @@ class Simulation {
     friend class Preparation;
     [[nodiscard]] bool canAppend(const scene::Scene& grown) const;
     Result<void> makeRoomFor(std::uint32_t spheres);
+    [[nodiscard]] bool fitsPlan(std::uint64_t spheres) const;
     void append(Preparation& preparation);
+    void append(std::span<const scene::Sphere> added);
+    void emit();
+    std::vector<bool> freePlaces(std::span<const scene::Sphere> births);
+    Result<void> addBorn(std::span<const scene::Sphere> born);
     Result<void> remove(const std::vector<std::uint32_t>& ranks);
     void emptySinks();
     void keepLastFinite();
@@ -187,6 +195,7 @@ class Simulation {
     std::optional<Drives> drives_;
     std::unique_ptr<Pipeline> pipeline_;
     Population population_;
+    Flows flows_;
     Counters counters_;
     bool observing_ = true;
     Impacts impacts_;
@@ -201,6 +210,7 @@ class Simulation {
     bool noticedSampled_ = false;    // a notice about sampled pairs was given
     bool noticedCutShort_ = false;   // a notice about lists that were cut short was given
     bool noticedFullSinks_ = false;  // a notice about sinks without memory was given
+    bool noticedNoRoom_ = false;     // a notice about emitters without room was given
     std::uint32_t substeps_ = 1;
     std::uint32_t maxSubsteps_ = 1;  // limit while a sphere is very fast
     std::uint32_t quietSteps_ = 0;   // steps since a sphere moved too far
@@ -211,6 +221,7 @@ class Simulation {
     std::vector<std::string> notices_;
     std::uint64_t lastFiniteStep_ = 0;  // of the last state that was found finite, which the pipeline keeps
     std::vector<scene::Drive> lastFiniteDrives_;
+    Flows lastFiniteFlows_;
     // The spheres of that state, kept when spheres are added or removed after it.
     struct Spheres {
         Population population;

@@ -21,19 +21,24 @@ void Simulation::keepLastFinite() {
     if (!lastFiniteSpheres_) lastFiniteSpheres_ = Spheres{population_, scene_.spheres, scene_.groups};
 }
 
-// True if the spheres that `grown` has in addition need no other arrays or kernels, and no cells of another size.
-bool Simulation::canAppend(const scene::Scene& grown) const {
+// True if the plan suits so many spheres.
+bool Simulation::fitsPlan(std::uint64_t spheres) const {
     // With more spheres, the cells would be too few for them.
     constexpr std::uint32_t mostGrowth = 2;
     // Handles that rest, as many as spheres and more, would take room: others are given to all spheres then.
     constexpr std::uint64_t mostResting = 1024;
-    if (!plan().features.hasAll(featuresOf(grown)) || grown.groups.size() < scene_.groups.size()) return false;
-    const std::uint64_t handles = population_.handles() + grown.spheres.size() - count();
+    const std::uint64_t handles = population_.handles() + spheres - count();
     if (handles > Pipeline::mostHandles) return false;
-    if (handles > plan().room && handles > 2 * grown.spheres.size() + mostResting) return false;
+    if (handles > plan().room && handles > 2 * spheres + mostResting) return false;
     std::uint64_t planned = 0;
     for (const Level& level : plan().grid.levels) planned += level.spheres;
-    if (plan().features.has(Feature::Contacts) && grown.spheres.size() > mostGrowth * planned) return false;
+    return !plan().features.has(Feature::Contacts) || spheres <= mostGrowth * planned;
+}
+
+// True if the spheres that `grown` has in addition need no other arrays or kernels, and no cells of another size.
+bool Simulation::canAppend(const scene::Scene& grown) const {
+    if (!plan().features.hasAll(featuresOf(grown)) || grown.groups.size() < scene_.groups.size()) return false;
+    if (!fitsPlan(grown.spheres.size())) return false;
     return std::ranges::all_of(grown.spheres.begin() + count(), grown.spheres.end(), [&](const scene::Sphere& sphere) {
         const auto radius = static_cast<double>(sphere.radius);
         return radius >= radii_.smallest && radius <= radii_.largest;
@@ -56,11 +61,14 @@ void Simulation::append(Preparation& preparation) {
     closeContactSums();
     keepLastFinite();
     scene::Scene& grown = preparation.built_.scene;
-    const auto first = static_cast<std::ptrdiff_t>(count());
-    scene_.spheres.insert(scene_.spheres.end(), grown.spheres.begin() + first, grown.spheres.end());
     scene_.groups = std::move(grown.groups);
     scene_.quality = grown.quality;
-    const std::span<const scene::Sphere> added = std::span(scene_.spheres).subspan(count());
+    append(std::span(grown.spheres).subspan(count()));
+}
+
+// Adds spheres for which there is room. Call closeContactSums() and keepLastFinite() before.
+void Simulation::append(std::span<const scene::Sphere> added) {
+    scene_.spheres.insert(scene_.spheres.end(), added.begin(), added.end());
     const State born = stateOf(scene_, added);
     std::vector<std::uint8_t> materials;
     for (const scene::Sphere& sphere : added) materials.push_back(sphere.material);
@@ -102,12 +110,20 @@ void Simulation::emptySinks() {
     const std::vector<scene::Box> sinks = sinksOnDevice(scene_);
     const State state = snapshot();
     std::vector<std::uint32_t> ranks;
-    for (std::uint32_t rank = 0; rank < state.count(); ++rank)
-        if (std::ranges::any_of(sinks, [&](const scene::Box& box) { return box.contains(positionOf(state, rank)); }))
-            ranks.push_back(rank);
+    Flows flows = flows_;
+    for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
+        const auto sink = std::ranges::find_if(
+            sinks, [&](const scene::Box& box) { return box.contains(positionOf(state, rank)); });
+        if (sink == sinks.end()) continue;
+        ranks.push_back(rank);
+        const scene::Sphere& sphere = scene_.spheres[rank];
+        flows.sinks[static_cast<std::size_t>(sink - sinks.begin())].add(time(), sphere.material,
+                                                                       massOf(scene_, sphere));
+    }
     const std::uint32_t none = 0;
     pipeline_->write<std::uint32_t>(Array::Counters, std::span(&none, 1), COUNTER_SUNK);
     const auto removed = remove(ranks);
+    if (removed) flows_ = std::move(flows);
     if (!removed && !std::exchange(noticedFullSinks_, true))
         notices_.push_back(
             fmt::format("at step {}, sinks cannot take spheres, and try again: {}", steps_, removed.error().text()));

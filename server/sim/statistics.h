@@ -36,6 +36,26 @@ struct SurfaceForce {
     glm::dvec3 torque{};
 };
 
+// The spheres that have passed an emitter or a sink.
+struct FlowCounts {
+    std::uint64_t spheres = 0;
+    double mass = 0;              // kg
+    double spheresPerSecond = 0;  // in the last full second (simulated)
+    double massPerSecond = 0;     // kg/s, likewise
+};
+
+struct EmitterCounts {
+    std::string name;  // as in the scene
+    FlowCounts born;
+    std::uint64_t blocked = 0;  // spheres that found no free place
+    std::uint64_t waiting = 0;  // spheres that are due, and will be tried again
+};
+
+struct SinkCounts {
+    FlowCounts taken;
+    std::vector<std::uint64_t> byMaterial;  // spheres, in the order of the scene's materials
+};
+
 // Statistics in SI units. Overlaps are fractions of the (smaller) radius.
 struct Statistics {
     std::uint64_t step = 0;
@@ -43,6 +63,8 @@ struct Statistics {
     std::uint32_t spheres = 0;
     std::uint64_t born = 0;     // since the world began, the scene's spheres included
     std::uint64_t removed = 0;  // by commands and sinks
+    std::vector<EmitterCounts> emitters{};  // since the world began, in the order of the scene
+    std::vector<SinkCounts> sinks{};
     double kineticEnergy = 0;
     double rotationalEnergy = 0;
     double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models

@@ -111,6 +111,13 @@ struct Obstacle {
 #define MOST_PULLS 64u
 #define PULL_ROWS 2u
 
+// Places for new spheres, in the buffer `birthPlaces`, in chunks. A chunk has two rows and then BIRTH_CHUNK places. The
+// rows have the centre of the box of these places (m, relative to the centre of the bounds) and half its sides. A place
+// has the position and the radius (m) of the new sphere. The last places of a chunk may have no radius: they are none.
+#define MOST_BIRTH_PLACES 8192u
+#define BIRTH_CHUNK 64u
+#define BIRTH_CHUNK_ROWS (BIRTH_CHUNK + 2u)
+
 // Sums over a block of spheres.
 struct SphereStatistics {
     vec4 weighted;          // sum of m x, x without wrapping; w: sum of m

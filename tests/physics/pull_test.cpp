@@ -171,7 +171,7 @@ TEST_P(Pulls, EndWithReleaseAndMoveWithTheSession) {
 TEST_P(Pulls, EndWithTheSphereAndWithReset) {
     scene::Scene scene = oneSphere(GetParam(), {}, {-0.5, 0, 0});
     scene.spheres.push_back({.position = {0.5, 0, 0}, .radius = static_cast<float>(radius)});
-    scene.groups = {{.name = "both", .first = 0, .count = 2, .look = {}}};
+    scene.groups = {{.name = "both", .count = 2, .look = {}}};
     const auto simulation = simulate(scene);
     pull(*simulation, {.session = 1, .sphere = 0, .point = {}});
     pull(*simulation, {.session = 2, .sphere = 1, .point = {0.5, 0.1, 0}});

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "scene/random.h"
 #include "sim/modules/module.h"
@@ -11,8 +12,14 @@ namespace {
 // approach each other, and a solver moves them a little further before the next check.
 constexpr double rebuildShare = 0.45;
 
-bool differ(const std::vector<scene::Sphere>& spheres) {
-    return std::ranges::any_of(spheres, [&](const scene::Sphere& s) { return s.radius != spheres.front().radius; });
+bool radiiDiffer(const scene::Scene& scene) {
+    float smallest = std::numeric_limits<float>::infinity();
+    float largest = 0;
+    scene::forEachSphere(scene, [&](const scene::Sphere& sphere, double /*weight*/) {
+        smallest = std::min(smallest, sphere.radius);
+        largest = std::max(largest, sphere.radius);
+    });
+    return smallest < largest;
 }
 
 void declareLists(PlanBuilder& plan) {
@@ -71,7 +78,7 @@ const Module moduleContacts{
 // Radii differ.
 const Module moduleRadii{
     .feature = Feature::Radii,
-    .required = [](const scene::Scene& scene, const Features& /*others*/) { return differ(scene.spheres); },
+    .required = [](const scene::Scene& scene, const Features& /*others*/) { return radiiDiffer(scene); },
     .cost = {.name = "radii that differ",
              // Varies radii by at most 1e-5, so that both scenes have the same contacts.
              .with =

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "scene/materials.h"
 #include "sim/modules/module.h"
@@ -33,8 +34,13 @@ const Module moduleMaterials{
     .feature = Feature::Materials,
     .required =
         [](const scene::Scene& scene, const Features& /*others*/) {
-            return std::ranges::any_of(
-                scene.spheres, [&](const scene::Sphere& s) { return s.material != scene.spheres.front().material; });
+            bool differ = false;
+            std::optional<std::uint8_t> first;
+            scene::forEachSphere(scene, [&](const scene::Sphere& sphere, double /*weight*/) {
+                differ = differ || sphere.material != first.value_or(sphere.material);
+                first = sphere.material;
+            });
+            return differ;
         },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::ContactParams}); },
     .cost = {.name = "two materials",

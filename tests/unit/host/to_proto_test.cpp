@@ -1,3 +1,4 @@
+#include "host/facts_message.h"
 #include "host/to_proto.h"
 
 #include <gtest/gtest.h>

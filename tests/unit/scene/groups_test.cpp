@@ -36,7 +36,8 @@ TEST(SceneGroups, ListSpheresInheritPropertiesOfTheGroup) {
     EXPECT_EQ(scene.groups[1].look.roughness, 0.45);
     EXPECT_EQ(scene.groups[1].look.metal, 0);
     EXPECT_EQ(scene.groups[0].count, 2U);
-    EXPECT_EQ(scene.groups[1].first, 2U);
+    EXPECT_EQ(scene.spheres[1].group, 0U);
+    EXPECT_EQ(scene.spheres[2].group, 1U);
     EXPECT_EQ(scene.groups[1].count, 1U);
 }
 

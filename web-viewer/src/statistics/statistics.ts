@@ -1,5 +1,5 @@
 import type { Settings } from "../gen/spherule/v1/control_pb";
-import type { Diagnostics, Statistics } from "../gen/spherule/v1/diagnostics_pb";
+import type { Diagnostics, FlowCounts, Statistics } from "../gen/spherule/v1/diagnostics_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
 import { count, figure, length, percent, seconds, vector, withPrefix } from "../format";
 import { impactLabels, mergeImpacts } from "../ui/dial_labels";
@@ -23,7 +23,7 @@ export class StatisticsLists {
     this.step = s.step;
     this.impacts = mergeImpacts(this.impacts, s);
     this.quality.show(qualityFigures(now, s, this.impacts, settings));
-    this.rest.show([...motion(s), ...turnover(s), ...sums(s), ...progress(s)]);
+    this.rest.show([...motion(s), ...turnover(s), ...flows(s), ...sums(s), ...progress(s)]);
   }
 }
 
@@ -163,6 +163,29 @@ function turnover({ born, removed }: Statistics): Figure[] {
       about: "Spheres that commands and sinks have taken away",
     },
   ];
+}
+
+/** The spheres that have passed emitters and sinks. */
+function flows({ emitters, sinks }: Statistics): Figure[] {
+  const flow = (one: FlowCounts | undefined): string =>
+    `${count(one?.spheres ?? 0n)}, ${figure(one?.spheresPerSecond ?? 0)}/s`;
+  const made = emitters.map(
+    ({ name, born, blocked }, k): Figure => ({
+      id: `emitter-${k}`,
+      name: `Made by ${name || `emitter ${k}`}`,
+      value: flow(born) + (blocked > 0n ? `, ${count(blocked)} blocked` : ""),
+      about: "Spheres that it has made, and how many in the last second. Blocked ones found no free place",
+    }),
+  );
+  const taken = sinks.map(
+    (sink, k): Figure => ({
+      id: `sink-${k}`,
+      name: `Taken by sink ${k}`,
+      value: flow(sink.taken),
+      about: "Spheres that it has taken, and how many in the last second",
+    }),
+  );
+  return [...made, ...taken];
 }
 
 const shownForces = 12;

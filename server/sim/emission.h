@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "scene/scene.h"
+#include "sim/flow_meter.h"
+
+namespace spherule::sim {
+
+// The spheres that the emitters of a scene have made and are about to make. Everything follows from the scene and from
+// which births were possible, so that all devices make the same spheres.
+class Emission {
+  public:
+    Emission() = default;
+    // Begins at this time (s simulated): spheres that were due before are not made.
+    Emission(const scene::Scene& scene, double time);
+
+    // A sphere that is due, at the place where its present attempt puts it.
+    struct Birth {
+        scene::Sphere sphere;
+        std::uint32_t emitter = 0;
+    };
+    // Returns the births to attempt at the end of a step from `begin` to `end` (s simulated), at most
+    // MOST_BIRTH_PLACES: those that wait, then those that have become due. Call settle() next.
+    const std::vector<Birth>& attempt(const scene::Scene& scene, double begin, double end);
+    // Tells which of these births have happened, in their order. The others wait for the next step, or count as
+    // blocked after their last attempt. `time`: of the births (s simulated).
+    void settle(const scene::Scene& scene, const std::vector<bool>& happened, double time);
+
+    [[nodiscard]] std::size_t emitters() const { return emitters_.size(); }
+    struct Counts {
+        FlowMeter born;
+        std::uint64_t blocked = 0;
+        std::size_t waiting = 0;
+    };
+    [[nodiscard]] Counts counts(std::size_t emitter) const;
+    [[nodiscard]] std::vector<std::uint64_t> born() const;  // by emitter
+
+  private:
+    struct Waiting {
+        scene::Sphere sphere;
+        std::uint64_t number = 0;
+        double flight = 0;  // s from the time when it was due to the end of that step
+        unsigned attempts = 0;
+    };
+    struct State {
+        std::uint64_t next = 0;  // number of the next sphere to become due
+        double massDue = 0;      // kg, of the spheres before it
+        std::deque<Waiting> waiting;
+        FlowMeter born;
+        std::uint64_t blocked = 0;
+    };
+    static void makeDue(const scene::Emitter& emitter, State& state, double begin, double end, std::size_t room);
+
+    std::vector<State> emitters_;
+    std::vector<Birth> births_;
+};
+
+}  // namespace spherule::sim

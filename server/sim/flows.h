@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+#include "sim/emission.h"
+#include "sim/flow_meter.h"
+#include "sim/statistics.h"
+
+namespace spherule::sim {
+
+// The spheres that a sink has taken.
+struct SinkFlow {
+    FlowMeter taken;
+    std::vector<std::uint64_t> byMaterial;  // spheres, by index into Scene::materials
+
+    void add(double time, std::uint8_t material, double mass);
+};
+
+// The spheres that emitters have made and sinks have taken since the world began.
+struct Flows {
+    Flows() = default;
+    explicit Flows(const scene::Scene& scene);
+
+    // Adds the counts to `statistics`, whose time is set.
+    void addTo(Statistics& statistics, const scene::Scene& scene) const;
+
+    Emission emission;
+    std::vector<SinkFlow> sinks;
+};
+
+}  // namespace spherule::sim

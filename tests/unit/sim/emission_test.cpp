@@ -1,0 +1,151 @@
+// The times at which emitters make spheres, and spheres without a free place.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/random.h"
+#include "scene_support.h"
+#include "sim/emission.h"
+#include "sim/layout.h"
+
+namespace spherule::sim {
+namespace {
+
+using scene::testing::sceneWith;
+
+scene::Scene withEmitter(const std::string& members, const std::string& more = "") {
+    return sceneWith(more +
+                     R"("gravity": [0, 0, 0], "emitters": [{"sphere": {"centre": [0.5, 0.5, 0.5], "radius": 0.2}, )"
+                     R"("radius": {"uniform": {"min": 0.001, "max": 0.002}}, )" +
+                     members + "}]");
+}
+
+// Does `steps` steps in which `happens(birth)` tells which births are possible.
+template <class Happens>
+void advance(Emission& emission, const scene::Scene& scene, int first, int steps, Happens happens) {
+    for (int k = first; k < first + steps; ++k) {
+        const auto& births = emission.attempt(scene, k * scene.step, (k + 1) * scene.step);
+        std::vector<bool> happened;
+        for (const Emission::Birth& birth : births) happened.push_back(happens(birth));
+        emission.settle(scene, happened, (k + 1) * scene.step);
+    }
+}
+
+bool always(const Emission::Birth& /*birth*/) {
+    return true;
+}
+
+bool never(const Emission::Birth& /*birth*/) {
+    return false;
+}
+
+// The spheres born until a time do not depend on the length of the steps.
+TEST(Emission, MakesARateExactly) {
+    scene::Random random(3);
+    for (int k = 0; k < 40; ++k) {
+        const double rate = std::exp2(random.uniform(-2, 12));
+        const double begin = random.uniform(-1, 1);
+        const std::string step = "\"step\": " + std::to_string(random.uniform(0.001, 0.05)) + ", ";
+        const scene::Scene scene = withEmitter(
+            "\"rate\": " + std::to_string(rate) + ", \"begin\": " + std::to_string(begin), step);
+        Emission emission(scene, 0);
+        const int steps = 200;
+        advance(emission, scene, 0, steps, always);
+        const double worked = scene.emitters[0].workedUntil(steps * scene.step) - scene.emitters[0].workedUntil(0);
+        EXPECT_NEAR(static_cast<double>(emission.counts(0).born.spheres()), worked * rate, 1) << rate;
+        EXPECT_EQ(emission.counts(0).waiting, 0U);
+    }
+}
+
+TEST(Emission, MakesAMassFlowExactly) {
+    const scene::Scene scene = withEmitter(R"("massFlow": 0.01)");
+    Emission emission(scene, 0);
+    advance(emission, scene, 0, 600, always);
+    const double largest = 4.0 / 3 * 3.14159 * 0.002 * 0.002 * 0.002 * 1000;
+    EXPECT_NEAR(emission.counts(0).born.mass(), 0.1, largest);
+    EXPECT_NEAR(emission.counts(0).born.massPerSecond(10), 0.01, 2 * largest);
+}
+
+TEST(Emission, MakesNoSphereOfTheTimeBeforeItBegan) {
+    for (const char* const flow : {R"("rate": 60, "begin": -100)", R"("massFlow": 0.001, "begin": -100)"}) {
+        const scene::Scene scene = withEmitter(flow);
+        Emission emission(scene, 0);
+        advance(emission, scene, 0, 1, always);
+        EXPECT_LE(emission.counts(0).born.spheres(), 4U) << flow;
+    }
+}
+
+TEST(Emission, EndsWithItsTotal) {
+    const scene::Scene scene = withEmitter(R"("rate": 600, "total": 100)");
+    Emission emission(scene, 0);
+    advance(emission, scene, 0, 5, always);
+    EXPECT_EQ(emission.counts(0).born.spheres(), 50U);
+    advance(emission, scene, 5, 100, always);
+    EXPECT_EQ(emission.counts(0).born.spheres(), 100U);
+}
+
+TEST(Emission, TriesASphereInOtherPlacesAndThenCountsItAsBlocked) {
+    const scene::Scene scene = withEmitter(R"("rate": 60, "total": 1)");
+    Emission emission(scene, 0);
+    std::vector<glm::dvec3> places;
+    float radius = 0;
+    advance(emission, scene, 0, 7, [&](const Emission::Birth& birth) {
+        places.push_back(birth.sphere.position);
+        EXPECT_EQ(birth.sphere.radius, places.size() == 1 ? birth.sphere.radius : radius) << "the same sphere";
+        radius = birth.sphere.radius;
+        return false;
+    });
+    ASSERT_EQ(places.size(), 7U);
+    for (std::size_t k = 1; k < places.size(); ++k) EXPECT_NE(places[k], places[k - 1]);
+    EXPECT_EQ(emission.counts(0).waiting, 1U);
+    EXPECT_EQ(emission.counts(0).blocked, 0U);
+    advance(emission, scene, 7, 1, never);
+    EXPECT_EQ(emission.counts(0).waiting, 0U);
+    EXPECT_EQ(emission.counts(0).blocked, 1U);
+    advance(emission, scene, 8, 1, always);
+    EXPECT_EQ(emission.counts(0).born.spheres(), 1U) << "blocked spheres do not count in the total";
+}
+
+// While births are blocked, those that wait are bounded.
+TEST(Emission, KeepsFewSpheresWaiting) {
+    const scene::Scene scene = withEmitter(R"("rate": 240000)");
+    Emission emission(scene, 0);
+    advance(emission, scene, 0, 50, never);
+    EXPECT_LE(emission.counts(0).waiting, MOST_BIRTH_PLACES);
+    EXPECT_GT(emission.counts(0).blocked, 0U);
+    EXPECT_EQ(emission.counts(0).born.spheres(), 0U);
+}
+
+// A sphere is where its flight since its time has taken it: the stream has no gaps between steps.
+TEST(Emission, MakesAContinuousStream) {
+    const scene::Scene scene = sceneWith(
+        R"("gravity": [0, 0, -10], "emitters": [{"box": {"min": [0.1, 0.1, 0.5], "max": [0.9, 0.9, 0.5]}, )"
+        R"("radius": {"constant": 0.001}, "rate": 6000, "velocity": [0, 0, 3]}])");
+    Emission emission(scene, 0);
+    const double end = 0.05;
+    const auto& births = emission.attempt(scene, end - scene.step, end);
+    ASSERT_GE(births.size(), 100U);
+    for (std::size_t k = births.size() - 100; k < births.size(); ++k) {
+        const double flight = end - static_cast<double>(k) / 6000;
+        if (flight > scene.step) continue;  // due in an earlier step
+        EXPECT_NEAR(births[k].sphere.position.z, 0.5 + 3 * flight - 5 * flight * flight, 1e-9);
+        EXPECT_NEAR(births[k].sphere.velocity.z, 3 - 10 * flight, 1e-6);
+    }
+}
+
+TEST(FlowMeter, TellsTheLastFullSecond) {
+    FlowMeter meter;
+    for (int k = 0; k < 25; ++k) meter.add(0.1 * k + 0.05, 2, 0.5);
+    EXPECT_EQ(meter.spheres(), 50U);
+    EXPECT_EQ(meter.mass(), 12.5);
+    EXPECT_EQ(meter.spheresPerSecond(2.5), 20);
+    EXPECT_EQ(meter.massPerSecond(2.5), 5);
+    EXPECT_EQ(meter.spheresPerSecond(3.5), 10);
+    EXPECT_EQ(meter.spheresPerSecond(4.5), 0);
+}
+
+}  // namespace
+}  // namespace spherule::sim
