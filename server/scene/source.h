@@ -31,8 +31,8 @@ struct SourceInput {
 std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, double count, std::string_view field,
                                        std::size_t besides = 0);
 
-// Returns the group's radii. Refuses if it has none.
-RadiusDistribution requiredRadii(Check& check, const SourceInput& input);
+// Returns the group's radii, which live as long as `input`. Refuses if it has none.
+const RadiusDistribution& requiredRadii(Check& check, const SourceInput& input);
 
 std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input);
 

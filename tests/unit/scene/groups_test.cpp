@@ -72,12 +72,12 @@ TEST(SceneGroups, NeedASource) {
 }
 
 TEST(SceneGroups, NeedARadiusIfTheSourceHasNone) {
-    const std::string missing = "groups[0].radius: is missing; give a constant, a uniform or a normal radius";
+    const std::string missing = "groups[0].radius: is missing; give one of constant, uniform, normal, logNormal, table";
     EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})")), missing);
     EXPECT_EQ(refusalOf(group(R"("fill": {"min": [0,0,0], "max": [1,1,1], "count": 1})")), missing);
     EXPECT_EQ(refusalOf(group(R"("lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.5})")), missing);
     EXPECT_EQ(refusalOf(group(R"("list": {}, "radius": {})")),
-              "groups[0].radius: is empty, must be one of constant, uniform, normal");
+              "groups[0].radius: is empty, must be one of constant, uniform, normal, logNormal, table");
 }
 
 TEST(SceneGroups, RadiiArePositive) {
