@@ -68,7 +68,7 @@ TEST(SceneGroups, EmptyListIsAccepted) {
 
 TEST(SceneGroups, NeedASource) {
     EXPECT_EQ(refusalOf(group(R"("radius": {"constant": 0.1})")),
-              "groups[0]: has no spheres, must have one of list, lattice, fill, csv");
+              "groups[0]: has no spheres, must have one of list, lattice, fill, csv, xyz, lammps");
 }
 
 TEST(SceneGroups, NeedARadiusIfTheSourceHasNone) {
@@ -168,10 +168,11 @@ TEST(SceneGroups, AreLimitedInNumberAndName) {
 }
 
 TEST(SceneGroups, InlineSceneMayNotNameFiles) {
-    EXPECT_EQ(
-        refusalOf(group(R"("csv": {"file": "/etc/passwd"})")),
-        "groups[0].csv: names the file \"/etc/passwd\", but only a scene file may name files; give the spheres as a "
-        "list");
+    for (const std::string source : {"csv", "xyz", "lammps"})
+        EXPECT_EQ(refusalOf(group('"' + source + R"(": {"file": "/etc/passwd"})")),
+                  "groups[0]." + source +
+                      ": names the file \"/etc/passwd\", but only a scene file may name files; give the spheres as a "
+                      "list");
 }
 
 TEST(SceneGroups, SpawnedGroupObeysTheRulesOfTheScene) {
