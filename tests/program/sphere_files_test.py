@@ -53,7 +53,8 @@ class SphereFiles(FolderTestCase):
         numpy.testing.assert_allclose(rows[:, 7:10], spins, rtol=1e-6, atol=1e-6)
 
     def test_ase_writes_extended_xyz(self):
-        for names in ("radius", "velo", "omega"), ("radii", "velocities", "angular_velocity"), ("radius", "vel", "omega"):
+        for names in (("radius", "velo", "omega"), ("radius", "vel", "omega"),
+                      ("radii", "velocities", "angular_velocity")):
             atoms = Atoms(f"X{len(self.radii)}", positions=self.positions, cell=[1, 1, 1], pbc=[True, False, False])
             atoms.info["note"] = "made for a \"test\""
             atoms.new_array("tags2", numpy.arange(len(self.radii)))
@@ -69,10 +70,12 @@ class SphereFiles(FolderTestCase):
                     radii=[0.05] * len(rows))
 
     def test_exports_are_read(self):
-        spheres = [{"position": list(position), "radius": radius} for position, radius in zip(self.positions, self.radii)]
+        spheres = [{"position": list(position), "radius": radius}
+                   for position, radius in zip(self.positions, self.radii)]
         scene = {"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}, "groups": [{"list": {"spheres": spheres}}]}
-        for command in (["run", self.write("listed.json", json.dumps(scene)), "--device", "cpu", "--for", "0.02s", "--record",
-                         self.at("run.sph")], ["export", self.at("run.sph"), "--format", "xyz", "--out", self.at("out.xyz")]):
+        file, recording, export = self.write("listed.json", json.dumps(scene)), self.at("run.sph"), self.at("out.xyz")
+        for command in (["run", file, "--device", "cpu", "--for", "0.02s", "--record", recording],
+                        ["export", recording, "--format", "xyz", "--out", export]):
             done = call(*command)
             self.assertEqual(done.returncode, 0, done.stderr)
         rows = self.read("xyz", "out.xyz")
@@ -81,8 +84,8 @@ class SphereFiles(FolderTestCase):
 
     def lammps(self, style, *commands):
         """Makes the spheres in LAMMPS, and carries out the commands there."""
-        script = ["units si", f"atom_style {style}", "boundary f f f", "atom_modify sort 1 0.2", "region box block 0 1 0 1 0 1",
-                  "create_box 1 box", "mass 1 1" if style == "atomic" else ""]
+        script = ["units si", f"atom_style {style}", "boundary f f f", "atom_modify sort 1 0.2",
+                  "region box block 0 1 0 1 0 1", "create_box 1 box", "mass 1 1" if style == "atomic" else ""]
         # LAMMPS numbers its atoms in the order of their making.
         for number, (position, velocity) in enumerate(zip(self.positions, self.velocities), 1):
             script += [f"create_atoms 1 single {' '.join(map(repr, map(float, position)))} units box",
@@ -92,8 +95,8 @@ class SphereFiles(FolderTestCase):
                            + " ".join(map(repr, map(float, self.spins[number - 1])))]
             script += ["group one delete"]
         path = self.write("in.lammps", "\n".join(script + list(commands)) + "\n")
-        done = subprocess.run([LMP, "-in", path, "-log", "none"], cwd=self.folder, capture_output=True, text=True, timeout=120,
-                              check=False)
+        done = subprocess.run([LMP, "-in", path, "-log", "none"], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_lammps_writes_data_files(self):

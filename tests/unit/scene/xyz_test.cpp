@@ -31,6 +31,16 @@ TEST(SceneXyz, PropertiesHaveAnyOrder) {
     EXPECT_EQ(spheres[0].spin, glm::vec3(7, 8, 9));
 }
 
+TEST(SceneXyz, PropertiesInQuotedTextAreNoProperties) {
+    const std::string rest = " b\" Properties=radius:R:1:pos:R:3\n5 1 2 3\n";
+    for (const std::string note : {"note=\"a Properties=pos:R:3", "note=\"a \\\" Properties=pos:R:3"}) {
+        const auto spheres = file.spheres("1\n" + note + rest);
+        ASSERT_EQ(spheres.size(), 1U) << note;
+        EXPECT_EQ(spheres[0].radius, 5) << note;
+        EXPECT_EQ(spheres[0].position, glm::dvec3(1, 2, 3)) << note;
+    }
+}
+
 TEST(SceneXyz, ScaleConvertsLengths) {
     const auto spheres =
         file.spheres("1\nProperties=pos:R:3:radius:R:1:vel:R:3:angular_velocity:R:3\n1 2 3 5500 4 5 6 7 8 9\n",
