@@ -29,8 +29,8 @@ struct DumpBox {
 // Names of three columns.
 struct Vector {
     std::array<std::string_view, 3> names;
-    Quantity first;
-    bool length;          // in the file's unit
+    Quantity first = Quantity::Ignored;
+    bool length = false;  // in the file's unit
     bool scaled = false;  // relative to the box
 };
 

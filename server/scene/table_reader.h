@@ -11,17 +11,17 @@
 
 namespace spherule::scene {
 
+constexpr std::size_t longestTableLine = 4096;  // bytes, if no other limit is given
+
 // Reads the lines of a text file and the numbers in them. Its errors contain the path, the line and the column.
 class TableReader {
   public:
-    static constexpr std::size_t longestLine = 4096;  // bytes, if nothing else is given
-
     // Opens the file; refuses if it cannot be opened. `field`: the field of the scene that names the file.
     TableReader(Check& check, std::string field, std::filesystem::path path);
 
     // Moves to the next line. Returns false at the end of the file, after any refusal, if the line cannot be read, and
     // if the work is cancelled. Reports the progress.
-    bool nextLine(std::size_t mostBytes = longestLine);
+    bool nextLine(std::size_t mostBytes = longestTableLine);
 
     [[nodiscard]] std::string_view text() const { return lines_ ? std::string_view(lines_->line()) : ""; }
     [[nodiscard]] std::size_t line() const { return lines_ ? lines_->number() : 1; }  // from 1

@@ -14,13 +14,13 @@ namespace spherule::scene {
 namespace {
 
 constexpr std::size_t longestComment = 64U << 10U;  // bytes
-constexpr std::size_t mostColumns = TableReader::longestLine / 2;
+constexpr std::size_t mostColumns = longestTableLine / 2;
 
 struct Property {
     std::string_view name;
-    Quantity first;
-    std::size_t columns;
-    bool length;  // in the file's unit
+    Quantity first = Quantity::Ignored;
+    std::size_t columns = 0;
+    bool length = false;  // in the file's unit
 };
 
 // The names of ASE, of OVITO, and others in use.
@@ -56,6 +56,26 @@ std::string_view cut(std::string_view& rest) {
     return part;
 }
 
+// Adds the columns of a property. Refuses one that cannot be read.
+void addProperty(TableReader& reader, SphereColumns& columns, std::string_view name, std::uint64_t wide, double scale) {
+    const auto* const property = std::ranges::find(known, name, &Property::name);
+    if (property == known.end()) {
+        for (std::uint64_t i = 0; i < wide; ++i) columns.add(Quantity::Ignored);
+        return;
+    }
+    if (wide != property->columns)
+        return reader.refuse(
+            name, fmt::format("the property {} has {} columns, must have {}", name, wide, property->columns));
+    if (columns.has(property->first))
+        return reader.refuse(name,
+                             fmt::format("the property {} gives a quantity that an earlier property gives", name));
+    const double factor = property->length ? scale : 1;
+    if (property->columns == 3)
+        columns.addVector(property->first, factor);
+    else
+        columns.add(property->first, factor);
+}
+
 // Reads the columns from the comment, the reader's line. Refuses those that cannot be read.
 SphereColumns readColumns(TableReader& reader, double scale) {
     const auto properties = propertiesIn(reader.text());
@@ -79,21 +99,7 @@ SphereColumns readColumns(TableReader& reader, double scale) {
             reader.refuse(width, fmt::format("Properties has too many columns, must have at most {}", mostColumns));
             break;
         }
-        const auto* const property = std::ranges::find(known, name, &Property::name);
-        if (property == known.end()) {
-            for (std::size_t i = 0; i < *wide; ++i) columns.add(Quantity::Ignored);
-        } else if (*wide != property->columns) {
-            reader.refuse(name,
-                          fmt::format("the property {} has {} columns, must have {}", name, *wide, property->columns));
-        } else if (columns.has(property->first)) {
-            reader.refuse(name, fmt::format("the property {} gives a quantity that an earlier property gives", name));
-        } else {
-            const double factor = property->length ? scale : 1;
-            if (property->columns == 3)
-                columns.addVector(property->first, factor);
-            else
-                columns.add(property->first, factor);
-        }
+        addProperty(reader, columns, name, *wide, scale);
     }
     if (!columns.has(Quantity::X)) reader.refuse(1, "Properties has no positions, must have pos:R:3");
     return columns;
