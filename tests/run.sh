@@ -131,7 +131,7 @@ fuzzed() {
 if [[ -n $fuzz ]]; then
     needed packages ./deploy/install_packages.sh build run egl software test clang
     needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
-    targets=(scene csv mesh height_field table text message connection codec recording)
+    targets=(scene csv xyz lammps mesh height_field table text message connection codec recording)
     needed build cmake --build --preset fuzz -j "$jobs" --target "${targets[@]/#/fuzz_}"
     for target in "${targets[@]}"; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
     summary
@@ -146,6 +146,7 @@ if [[ -n $sanitize ]]; then
 fi
 needed packages ./deploy/install_packages.sh build run egl software test ${tidy:+tidy}
 needed ase ./tests/unpack_ase.sh build/ase
+needed lammps ./tests/unpack_lammps.sh build/lammps
 needed nginx ./tests/deploy/unpack_nginx.sh build/nginx
 needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
 needed build cmake --build --preset release -j "$jobs"

@@ -47,7 +47,9 @@ class LineReader {
     Result<bool> next(std::size_t mostBytes);
     // The line without \n or \r\n, and without a byte-order mark in the first line.
     [[nodiscard]] const std::string& line() const { return line_; }
-    [[nodiscard]] std::size_t number() const { return number_; }  // of the line, from 1; also of a refused line
+    [[nodiscard]] std::size_t number() const { return number_; }       // of the line, from 1; also of a refused line
+    [[nodiscard]] std::uint64_t bytesRead() const { return offset_; }  // blocks in advance count
+    [[nodiscard]] std::uint64_t size() const { return file_.size(); }  // bytes
 
   private:
     Result<bool> fill();

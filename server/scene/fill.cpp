@@ -64,7 +64,7 @@ bool placeAll(Check& check, std::vector<Sphere>& spheres, const Box& region, con
 
 std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const Scene& scene, Occupancy& taken,
                              SourceInput input) {
-    const RadiusDistribution radii = requiredRadii(check, input);
+    const RadiusDistribution& radii = requiredRadii(check, input);
     const Box region = check.box(fill.min(), fill.max(), input.field);
     const std::string countField = at(input.field, "count");
     if (fill.count() == 0) check.refuse(countField, "is 0 or missing, must be at least 1");

@@ -24,6 +24,10 @@ std::string sourceName(const v1::Group& message) {
             return "fill";
         case v1::Group::kCsv:
             return "csv";
+        case v1::Group::kXyz:
+            return "xyz";
+        case v1::Group::kLammps:
+            return "lammps";
         case v1::Group::SOURCE_NOT_SET:
             break;
     }
@@ -37,8 +41,30 @@ std::uint64_t seedOf(const v1::Group& message) {
     return absent;
 }
 
+// Returns the file that the source names; nullptr if the source is no file.
+const std::string* fileOf(const v1::Group& message) {
+    if (message.has_csv()) return &message.csv().file();
+    if (message.has_xyz()) return &message.xyz().file();
+    if (message.has_lammps()) return &message.lammps().file();
+    return nullptr;
+}
+
+std::vector<Sphere> fromFile(Check& check, const v1::Group& message, const GroupContext& context, SourceInput input,
+                             FileLines& lines) {
+    if (!context.directory) {
+        check.refuse(input.field, fmt::format("names the file {}, but only a scene file may name files; give the "
+                                              "spheres as a list",
+                                              shown(*fileOf(message))));
+        return {};
+    }
+    if (message.has_csv()) return fromCsv(check, message.csv(), *context.directory, std::move(input), lines);
+    if (message.has_xyz()) return fromXyz(check, message.xyz(), *context.directory, std::move(input), lines);
+    return fromLammps(check, message.lammps(), *context.directory, std::move(input), lines);
+}
+
+// `lines`: of a file's spheres.
 std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context,
-                               SourceInput input) {
+                               SourceInput input, FileLines& lines) {
     switch (message.source_case()) {
         case v1::Group::kList:
             return fromList(check, message.list(), std::move(input));
@@ -48,30 +74,35 @@ std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Sce
             if (!addTaken(check, context.taken, context.occupancy)) return {};
             return fromFill(check, message.fill(), scene, context.occupancy, std::move(input));
         case v1::Group::kCsv:
-            if (context.directory) return fromCsv(check, message.csv(), *context.directory, std::move(input));
-            check.refuse(input.field, fmt::format("names the file {}, but only a scene file may name files; give the "
-                                                  "spheres as a list",
-                                                  shown(message.csv().file())));
-            break;
+        case v1::Group::kXyz:
+        case v1::Group::kLammps:
+            return fromFile(check, message, context, std::move(input), lines);
         case v1::Group::SOURCE_NOT_SET:
-            check.refuse(context.field, "has no spheres, must have one of list, lattice, fill, csv");
+            check.refuse(context.field, "has no spheres, must have one of list, lattice, fill, csv, xyz, lammps");
             break;
     }
     return {};
 }
 
+// A group as it is read, for refusals of its spheres.
+struct ReadGroup {
+    const v1::Group& message;
+    const std::string& source;  // field of the source
+    std::vector<Sphere> spheres;
+    FileLines lines;
+};
+
 // Refuses sphere `index`, with its place in the scene or its file.
-void refuseSphere(Check& check, const v1::Group& message, const std::string& source, std::size_t index,
-                  const Sphere& sphere, const std::string& reason) {
+void refuseSphere(Check& check, const ReadGroup& group, std::size_t index, const std::string& reason) {
+    const Sphere& sphere = group.spheres[index];
     const std::string what = fmt::format("at {} with radius {}", shown(sphere.position), sphere.radius);
-    if (message.has_list()) {
-        check.refuse(at(at(source, "spheres"), index), fmt::format("is {} and {}", what, reason));
-    } else if (message.has_csv()) {
-        // The first line is the header.
-        check.refuse(at(source, "file"),
-                     fmt::format("{}:{}:1: the sphere {} {}", message.csv().file(), index + 2, what, reason));
+    if (group.message.has_list()) {
+        check.refuse(at(at(group.source, "spheres"), index), fmt::format("is {} and {}", what, reason));
+    } else if (const std::string* file = fileOf(group.message)) {
+        check.refuse(at(group.source, "file"),
+                     fmt::format("{}:{}:1: the sphere {} {}", *file, group.lines[index], what, reason));
     } else {
-        check.refuse(source, fmt::format("puts a sphere {}, which {}", what, reason));
+        check.refuse(group.source, fmt::format("puts a sphere {}, which {}", what, reason));
     }
 }
 
@@ -88,8 +119,8 @@ void checkWork(Check& check, const Scene& scene, const std::string& source, std:
 
 constexpr std::size_t betweenMarks = 1024;  // spheres
 
-void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, const std::string& source,
-                 const std::vector<Sphere>& spheres) {
+void checkPlaces(Check& check, const ReadGroup& group, const Scene& scene) {
+    const std::vector<Sphere>& spheres = group.spheres;
     for (std::size_t i = 0; i < spheres.size(); ++i) {
         if (i % betweenMarks == 0 && !check.goesOn("checking places", i, spheres.size())) return;
         const auto radius = static_cast<double>(spheres[i].radius);
@@ -97,19 +128,18 @@ void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, con
         if (const auto hit = obstacleAt(scene, spheres[i].position, radius); !reason && hit) {
             reason = fmt::format("reaches into {}", at("obstacles", *hit));
         }
-        if (reason) return refuseSphere(check, message, source, i, spheres[i], *reason);
+        if (reason) return refuseSphere(check, group, i, *reason);
     }
 }
 
 // Refuses fixed spheres that move.
-void checkAtRest(Check& check, const v1::Group& message, const std::string& source,
-                 const std::vector<Sphere>& spheres) {
+void checkAtRest(Check& check, const ReadGroup& group) {
     const auto moves = [](const Sphere& sphere) {
         return sphere.velocity != glm::vec3(0) || sphere.spin != glm::vec3(0);
     };
-    const auto mover = std::ranges::find_if(spheres, moves);
-    if (mover == spheres.end()) return;
-    refuseSphere(check, message, source, static_cast<std::size_t>(mover - spheres.begin()), *mover,
+    const auto mover = std::ranges::find_if(group.spheres, moves);
+    if (mover == group.spheres.end()) return;
+    refuseSphere(check, group, static_cast<std::size_t>(mover - group.spheres.begin()),
                  "is fixed, so it can have neither velocity nor spin; leave these out, or leave out fixed");
 }
 
@@ -152,16 +182,17 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     checkName(check, message.name(), at(context.field, "name"));
     if (!check.ok()) return {};
 
-    std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));
-    for (Sphere& sphere : spheres) {
+    ReadGroup group{message, source, {}, {}};
+    group.spheres = fromSource(check, message, scene, context, std::move(input), group.lines);
+    for (Sphere& sphere : group.spheres) {
         sphere.material = material;
         sphere.fixed = message.fixed();
         sphere.group = static_cast<std::uint16_t>(scene.groups.size());
     }
-    if (message.fixed()) checkAtRest(check, message, source, spheres);
-    if (check.ok()) checkWork(check, scene, source, context.taken.size() + spheres.size());
-    if (check.ok() && !message.list().saved()) checkPlaces(check, message, scene, source, spheres);
-    return spheres;
+    if (message.fixed()) checkAtRest(check, group);
+    if (check.ok()) checkWork(check, scene, source, context.taken.size() + group.spheres.size());
+    if (check.ok() && !message.list().saved()) checkPlaces(check, group, scene);
+    return std::move(group.spheres);
 }
 
 void removeEmptyGroups(Scene& scene) {

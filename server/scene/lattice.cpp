@@ -36,7 +36,7 @@ Places placesIn(const Box& region, const Bounds& bounds, double spacing, double 
 }  // namespace
 
 std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, const Bounds& bounds, SourceInput input) {
-    const RadiusDistribution radii = requiredRadii(check, input);
+    const RadiusDistribution& radii = requiredRadii(check, input);
     const Box region = check.box(lattice.min(), lattice.max(), input.field);
     const double spacing = check.positive(lattice.spacing(), at(input.field, "spacing"));
     const double jitter = check.within(lattice.jitter(), 0, spacing, at(input.field, "jitter"), " m (the spacing)");

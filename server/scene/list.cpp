@@ -22,12 +22,13 @@ std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, d
     return std::nullopt;
 }
 
-RadiusDistribution requiredRadii(Check& check, const SourceInput& input) {
+const RadiusDistribution& requiredRadii(Check& check, const SourceInput& input) {
+    static const RadiusDistribution none;
     if (input.radii) return *input.radii;
     const std::size_t end = input.field.rfind('.');
     const std::string group = end == std::string::npos ? "" : input.field.substr(0, end);
-    check.refuse(at(group, "radius"), "is missing; give a constant, a uniform or a normal radius");
-    return {};
+    check.refuse(at(group, "radius"), "is missing; give one of constant, uniform, normal, logNormal, table");
+    return none;
 }
 
 std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input) {

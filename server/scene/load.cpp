@@ -48,8 +48,8 @@ Result<Scene> load(const std::string& source, std::string_view deviceKind, const
         dropByteOrderMark(*text);
         if (const auto objects = std::count(text->begin(), text->end(), '{'); objects > mostObjects)
             return fail(ErrorKind::Input, source,
-                        fmt::format("has {} objects, at most {} are allowed; give so many spheres as CSV, lattice or "
-                                    "fill",
+                        fmt::format("has {} objects, at most {} are allowed; give so many spheres as csv, xyz, lammps, "
+                                    "lattice or fill",
                                     objects, mostObjects));
         return buildText(*text, source, path.stem().string(), path.parent_path(), overrides, progress);
     }

@@ -2,9 +2,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "scene/check.h"
+#include "scene/portable_exp.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {
@@ -23,16 +27,84 @@ void readNormal(Check& check, const v1::Normal& normal, std::string_view field, 
     const double mean = check.within(normal.mean(), radii.min, radii.max, at(field, "mean"), " (min to max)");
     const double deviation = check.upTo(normal.deviation(), radii.max - radii.min, at(field, "deviation"),
                                         " (max - min; for a wider one use uniform)");
-    radii.bell = RadiusDistribution::Bell{mean, deviation};
+    radii.kind = RadiusDistribution::Normal{mean, deviation};
 }
+
+void readLogNormal(Check& check, const v1::LogNormal& message, std::string_view field, RadiusDistribution& radii) {
+    readLimits(check, message.min(), message.max(), field, radii);
+    if (!check.ok()) return;
+    // As for a normal distribution: ln(min)..ln(max) contains ln(median) and is a deviation wide or wider, so at least
+    // the 0.341 between median and median + deviation lies within.
+    const double median = check.within(message.median(), radii.min, radii.max, at(field, "median"), " (min to max)");
+    const double deviation = check.upTo(message.deviation(), std::log(radii.max / radii.min), at(field, "deviation"),
+                                        " (ln(max / min); for a wider one use a table)");
+    radii.kind = RadiusDistribution::LogNormal{median, deviation};
+}
+
+void readTable(Check& check, const v1::RadiusTable& table, std::string_view field, RadiusDistribution& radii) {
+    constexpr int fewest = 2;
+    constexpr int most = 64;
+    const std::string radiiField = at(field, "radii");
+    const std::string sharesField = at(field, "shares");
+    if (table.radii_size() < fewest || table.radii_size() > most)
+        return check.refuse(radiiField,
+                            fmt::format("has {} numbers, must have {} to {}", table.radii_size(), fewest, most));
+    if (table.shares_size() != table.radii_size())
+        return check.refuse(sharesField, fmt::format("has {} numbers, must have one for each of the {} radii",
+                                                     table.shares_size(), table.radii_size()));
+    for (int i = 0; i < table.radii_size(); ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        readRadius(check, table.radii(i), at(radiiField, index));
+        check.within(table.shares(i), 0, 1, at(sharesField, index));
+        if (i == 0) continue;
+        if (table.radii(i) <= table.radii(i - 1))
+            check.refuse(at(radiiField, index), fmt::format("is {}, must be above the radius before it, {}",
+                                                            table.radii(i), table.radii(i - 1)));
+        if (table.shares(i) < table.shares(i - 1))
+            check.refuse(at(sharesField, index), fmt::format("is {}, must be at least the share before it, {}",
+                                                             table.shares(i), table.shares(i - 1)));
+    }
+    if (table.shares(0) != 0)
+        check.refuse(at(sharesField, 0), fmt::format("is {}, must be 0: no sphere is smaller than the first radius; "
+                                                     "begin with the smallest radius",
+                                                     table.shares(0)));
+    const auto last = static_cast<std::size_t>(table.shares_size() - 1);
+    if (*table.shares().rbegin() != 1)
+        check.refuse(at(sharesField, last),
+                     fmt::format("is {}, must be 1: no sphere is larger than the last radius; end "
+                                 "with the largest radius",
+                                 *table.shares().rbegin()));
+    if (!check.ok()) return;
+    radii.min = table.radii(0);
+    radii.max = *table.radii().rbegin();
+    radii.kind =
+        SieveCurve(table.by_mass() ? SieveCurve::Of::Mass : SieveCurve::Of::Number,
+                   {table.radii().begin(), table.radii().end()}, {table.shares().begin(), table.shares().end()});
+}
+
+// Draws one radius (m), perhaps outside min..max.
+struct Draw {
+    Random& random;
+    double min;
+    double max;
+
+    double operator()(const RadiusDistribution::Uniform&) const { return random.uniform(min, max); }
+    double operator()(const RadiusDistribution::Normal& normal) const {
+        return normal.mean + normal.deviation * random.normal();
+    }
+    double operator()(const RadiusDistribution::LogNormal& law) const {
+        constexpr double most = 700;  // beyond max / min of any radii
+        return law.median * portableExp(std::clamp(law.deviation * random.normal(), -most, most));
+    }
+    double operator()(const SieveCurve& curve) const { return curve.draw(random); }
+};
 
 }  // namespace
 
 float RadiusDistribution::draw(Random& random) const {
     if (min == max) return static_cast<float>(min);
-    if (!bell) return static_cast<float>(random.uniform(min, max));
     for (;;) {
-        const double radius = bell->mean + bell->deviation * random.normal();
+        const double radius = std::visit(Draw{random, min, max}, kind);
         if (radius >= min && radius <= max) return static_cast<float>(radius);
     }
 }
@@ -53,8 +125,14 @@ RadiusDistribution readRadiusDistribution(Check& check, const v1::Radius& messag
         case v1::Radius::kNormal:
             readNormal(check, message.normal(), at(field, "normal"), radii);
             break;
+        case v1::Radius::kLogNormal:
+            readLogNormal(check, message.log_normal(), at(field, "logNormal"), radii);
+            break;
+        case v1::Radius::kTable:
+            readTable(check, message.table(), at(field, "table"), radii);
+            break;
         case v1::Radius::KIND_NOT_SET:
-            check.refuse(std::string(field), "is empty, must be one of constant, uniform, normal");
+            check.refuse(std::string(field), "is empty, must be one of constant, uniform, normal, logNormal, table");
             break;
     }
     return radii;

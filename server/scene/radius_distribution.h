@@ -1,9 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string_view>
+#include <variant>
 
 #include "scene/random.h"
+#include "scene/sieve_curve.h"
 
 namespace spherule::v1 {
 class Radius;
@@ -16,16 +17,25 @@ class Check;
 constexpr double smallestRadius = 1e-6;  // m
 constexpr double largestRadius = 1e6;    // m
 
-// A validated distribution of radii: always the same, uniform in min..max, or normal cut to min..max.
+// A validated distribution of radii within min..max; the same radius always if both are equal.
 struct RadiusDistribution {
-    struct Bell {
-        double mean = 0;
-        double deviation = 0;
+    struct Uniform {};
+
+    // Drawn again outside min..max.
+    struct Normal {
+        double mean = 0;       // m
+        double deviation = 0;  // m
+    };
+
+    // ln r is normal. Drawn again outside min..max.
+    struct LogNormal {
+        double median = 0;     // m
+        double deviation = 0;  // of ln r
     };
 
     double min = 0;  // m
     double max = 0;  // m
-    std::optional<Bell> bell;
+    std::variant<Uniform, Normal, LogNormal, SieveCurve> kind;
 
     // A constant distribution draws no random number.
     [[nodiscard]] float draw(Random& random) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,22 +27,29 @@ struct SourceInput {
     Random random;
 };
 
+// The line of each sphere in its file, from 1.
+using FileLines = std::vector<std::uint32_t>;
+
 // Claims memory for `count` spheres of a source, plus `besides` bytes per sphere. Hold the claim until the spheres are
 // allocated. Refuses and returns nullopt if the scene or the memory has no room for them.
 std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, double count, std::string_view field,
                                        std::size_t besides = 0);
 
-// Returns the group's radii. Refuses if it has none.
-RadiusDistribution requiredRadii(Check& check, const SourceInput& input);
+// Returns the group's radii, which live as long as `input`. Refuses if it has none.
+const RadiusDistribution& requiredRadii(Check& check, const SourceInput& input);
 
 std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input);
 
 // `bounds`: a region with the whole length of a periodic axis is filled across the seam.
 std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, const Bounds& bounds, SourceInput input);
 
-// Reads `directory`/csv.file(). Errors give places in the file as file:line:column.
-std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
-                            SourceInput input);
+// Reads the file of the source in `directory`. Errors give places in the file as file:line:column.
+std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory, SourceInput input,
+                            FileLines& lines);
+std::vector<Sphere> fromXyz(Check& check, const v1::Xyz& xyz, const std::filesystem::path& directory, SourceInput input,
+                            FileLines& lines);
+std::vector<Sphere> fromLammps(Check& check, const v1::Lammps& lammps, const std::filesystem::path& directory,
+                               SourceInput input, FileLines& lines);
 
 // Places spheres clear of the scene's obstacles and of `taken`, and adds them to `taken`. Refuses if free places become
 // too hard to find. A region with the whole length of a periodic axis is filled across the seam.

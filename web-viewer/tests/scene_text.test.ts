@@ -37,6 +37,8 @@ test("faults are at their lines", () => {
     ['{"constant": 0.1}', "0.1", 6, /must be an object/],
     ["[0.5, 0.5, 0.5]", '[0.5, "x", 0.5]', 5, /position: .*"x"/],
     ['"list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]}', '"csv": {"file": "a.csv"}', 5, /as a list, or start/],
+    ['"list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]}', '"xyz": {"file": "a.xyz"}', 5, /as a list, or start/],
+    ['"list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]}', '"lammps": {"file": "a.dump"}', 5, /as a list, or start/],
   ];
   for (const [right, wrong, line, message] of cases) {
     const text = scene.replace(right, wrong);

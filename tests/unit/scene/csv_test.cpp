@@ -62,7 +62,7 @@ TEST_F(SceneCsv, ErrorsHaveLineAndColumn) {
     EXPECT_EQ(refusal("x,y,z,radius\n0.2,0.3,0.4\n"),
               "balls.csv:2:12: the line must have 4 numbers, as the header has names");
     EXPECT_EQ(refusal("x,y,z\n0.2,0.3,0.4,5\n", radius),
-              "balls.csv:2:12: the line must have 3 numbers, as the header has names");
+              "balls.csv:2:13: the line must have 3 numbers, as the header has names");
     EXPECT_EQ(refusal("x,y,z\n0.2,,0.4\n", radius), "balls.csv:2:5: y is \"\", must be a number");
     EXPECT_EQ(refusal("x,y,z\n1e999,0,0\n", radius), "balls.csv:2:1: x is \"1e999\", must be a number");
 }

@@ -69,16 +69,16 @@ TEST(SceneGroups, EmptyListIsAccepted) {
 
 TEST(SceneGroups, NeedASource) {
     EXPECT_EQ(refusalOf(group(R"("radius": {"constant": 0.1})")),
-              "groups[0]: has no spheres, must have one of list, lattice, fill, csv");
+              "groups[0]: has no spheres, must have one of list, lattice, fill, csv, xyz, lammps");
 }
 
 TEST(SceneGroups, NeedARadiusIfTheSourceHasNone) {
-    const std::string missing = "groups[0].radius: is missing; give a constant, a uniform or a normal radius";
+    const std::string missing = "groups[0].radius: is missing; give one of constant, uniform, normal, logNormal, table";
     EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})")), missing);
     EXPECT_EQ(refusalOf(group(R"("fill": {"min": [0,0,0], "max": [1,1,1], "count": 1})")), missing);
     EXPECT_EQ(refusalOf(group(R"("lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.5})")), missing);
     EXPECT_EQ(refusalOf(group(R"("list": {}, "radius": {})")),
-              "groups[0].radius: is empty, must be one of constant, uniform, normal");
+              "groups[0].radius: is empty, must be one of constant, uniform, normal, logNormal, table");
 }
 
 TEST(SceneGroups, RadiiArePositive) {
@@ -169,10 +169,11 @@ TEST(SceneGroups, AreLimitedInNumberAndName) {
 }
 
 TEST(SceneGroups, InlineSceneMayNotNameFiles) {
-    EXPECT_EQ(
-        refusalOf(group(R"("csv": {"file": "/etc/passwd"})")),
-        "groups[0].csv: names the file \"/etc/passwd\", but only a scene file may name files; give the spheres as a "
-        "list");
+    for (const std::string source : {"csv", "xyz", "lammps"})
+        EXPECT_EQ(refusalOf(group('"' + source + R"(": {"file": "/etc/passwd"})")),
+                  "groups[0]." + source +
+                      ": names the file \"/etc/passwd\", but only a scene file may name files; give the spheres as a "
+                      "list");
 }
 
 TEST(SceneGroups, SpawnedGroupObeysTheRulesOfTheScene) {

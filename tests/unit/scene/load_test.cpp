@@ -121,9 +121,10 @@ TEST(SceneLoad, TooLargeFilesAreRefusedBeforeReading) {
     EXPECT_EQ(load(path, "gpu").error().text(), path + ": has 2147483648 bytes, at most 33554432 are allowed");
     std::string empty = R"({"groups": [{})";
     for (int k = 0; k < 2'000'000; ++k) empty += ",{}";
-    EXPECT_EQ(refusalOfFile(folder, empty + "]}"),
-              "falling.json: has 2000002 objects, at most 2000000 are allowed; give so many spheres as CSV, lattice or "
-              "fill");
+    EXPECT_EQ(
+        refusalOfFile(folder, empty + "]}"),
+        "falling.json: has 2000002 objects, at most 2000000 are allowed; give so many spheres as csv, xyz, lammps, "
+        "lattice or fill");
 }
 
 TEST(SceneLoad, FileMayStartWithAByteOrderMark) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "scene/radius_distribution.h"
 #include "scene/random.h"
 
 namespace spherule::scene::testing {
@@ -56,32 +55,6 @@ TEST(SceneRandom, NormalHasItsMomentsAndTails) {
     EXPECT_NEAR(squares / draws, 1, 0.015);
     EXPECT_NEAR(fourths / draws, 3, 0.1);
     EXPECT_NEAR(static_cast<double>(beyondTwo) / draws, std::erfc(std::sqrt(2.0)), 0.0015);
-}
-
-TEST(SceneRadii, StayWithinTheirLimits) {
-    const RadiusDistribution uniform{.min = 0.1, .max = 0.2, .bell = {}};
-    const RadiusDistribution normal{.min = 0.1, .max = 0.2, .bell = RadiusDistribution::Bell{0.12, 0.02}};
-    Random random(7);
-    double uniformSum = 0;
-    double normalSum = 0;
-    for (int i = 0; i < draws; ++i) {
-        const float u = uniform.draw(random);
-        const float n = normal.draw(random);
-        ASSERT_GE(std::min(u, n), 0.1F);
-        ASSERT_LE(std::max(u, n), 0.2F);
-        uniformSum += static_cast<double>(u);
-        normalSum += static_cast<double>(n);
-    }
-    EXPECT_NEAR(uniformSum / draws, 0.15, 0.0005);
-    // Mean of a normal distribution that is cut at -1 and +4 standard deviations: 0.12 + 0.02 phi(1) / Phi(1).
-    EXPECT_NEAR(normalSum / draws, 0.12 + 0.02 * 0.24197 / 0.84134, 0.0005);
-}
-
-TEST(SceneRadii, ConstantRadiusUsesNoRandomNumbers) {
-    Random random(8);
-    const RadiusDistribution constant{.min = 0.1, .max = 0.1, .bell = {}};
-    EXPECT_EQ(constant.draw(random), 0.1F);
-    EXPECT_EQ(random.uniform(), Random(8).uniform());
 }
 
 }  // namespace

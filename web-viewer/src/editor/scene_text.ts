@@ -78,7 +78,7 @@ function check(message: DescMessage, node: Node, text: string, faults: Fault[]):
         add(value, `${key}: ${wrongText(error)}`);
       }
     }
-    if (field?.message?.name === "Csv") {
+    if (["Csv", "Xyz", "Lammps"].includes(field?.message?.name ?? "")) {
       add(value, `A page cannot send files: give the spheres as a list, or ${serveIt}`);
     }
   }

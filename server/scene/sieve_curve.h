@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "scene/random.h"
+
+namespace spherule::scene {
+
+// A distribution of radii by a cumulative curve, linear between its points. Draws have the same bits with every
+// compiler and mathematical library.
+class SieveCurve {
+  public:
+    enum class Of { Number, Mass };
+
+    // `radii` (m): at least two, each above the one before. `shares`: for each radius, the share of all spheres (their
+    // number or their mass) that are at most so large: from 0 to 1, none below the one before.
+    // Between two points a and b a curve of mass has a mass per radius that is constant. So its number per radius falls
+    // with r^-3, and the number between a and b is proportional to (share of mass) (a + b) / (a b)^2.
+    SieveCurve(Of of, std::vector<double> radii, const std::vector<double>& shares);
+
+    // Returns a radius (m).
+    [[nodiscard]] double draw(Random& random) const;
+
+  private:
+    Of of_;
+    std::vector<double> radii_;
+    std::vector<double> numbers_;  // below each radius, in any unit
+};
+
+}  // namespace spherule::scene
