@@ -67,6 +67,7 @@ struct Frame {
     const FieldDescriptor* field = nullptr;   // of an object: the member that is read; nullptr: unknown. Or of a list
     std::size_t offset = 0;
     std::size_t count = 0;                           // entries of a list
+    std::optional<std::size_t> matched{};            // length of its path, if it contains the target
     std::vector<const FieldDescriptor*> given{};     // members of an object
     std::vector<const FieldDescriptor*> misspelt{};  // members that an unknown name probably stands for
 };
@@ -120,6 +121,8 @@ class Walk {
     const FieldDescriptor* beginValue();
     [[nodiscard]] bool inList() const { return !frames_.empty() && frames_.back().message == nullptr; }
     [[nodiscard]] std::string path() const;
+    // Returns the length of the path of the frame's present value if it is the target or contains it.
+    [[nodiscard]] std::optional<std::size_t> matchedIn(const Frame& frame) const;
     // Returns false at the end of the search.
     bool refuse(std::size_t offset, std::string path, std::string message) {
         mistakes_.push_back({offset, std::move(path), std::move(message)});
@@ -137,10 +140,11 @@ class Walk {
     std::string_view text_;
     std::optional<std::string_view> target_;
     std::size_t targetOffset_ = 0;
-    std::size_t taken_ = 0;    // bytes that the parser has read
-    std::size_t last_ = 0;     // end of the token before
-    std::size_t begin_ = 0;    // of the token
-    std::size_t skipped_ = 0;  // depth within a value that is not checked
+    std::optional<std::size_t> matched_{};  // of the value that begins
+    std::size_t taken_ = 0;                 // bytes that the parser has read
+    std::size_t last_ = 0;                  // end of the token before
+    std::size_t begin_ = 0;                 // of the token
+    std::size_t skipped_ = 0;               // depth within a value that is not checked
     std::vector<Frame> frames_;
     std::vector<Mistake> mistakes_;
 };
@@ -156,16 +160,25 @@ std::string Walk::path() const {
     return path;
 }
 
+std::optional<std::size_t> Walk::matchedIn(const Frame& frame) const {
+    if (!frame.matched || frame.field == nullptr) return std::nullopt;
+    const std::string& name = frame.field->json_name();
+    const std::string step =
+        frame.message == nullptr ? at("", frame.count - 1) : (*frame.matched == 0 ? name : "." + name);
+    const std::string_view rest = target_->substr(*frame.matched);
+    if (!rest.starts_with(step)) return std::nullopt;
+    const std::string_view after = rest.substr(step.size());
+    if (!after.empty() && after[0] != '.' && after[0] != '[') return std::nullopt;
+    return *frame.matched + step.size();
+}
+
 const FieldDescriptor* Walk::beginValue() {
     begin_ = nextToken();
     if (skipped_ > 0 || frames_.empty()) return nullptr;
     Frame& frame = frames_.back();
     if (frame.message == nullptr) ++frame.count;
-    if (target_ && frame.field != nullptr) {
-        const std::string here = path();
-        const std::string_view rest = target_->substr(std::min(here.size(), target_->size()));
-        if (target_->starts_with(here) && (rest.empty() || rest[0] == '.' || rest[0] == '[')) targetOffset_ = begin_;
-    }
+    matched_ = matchedIn(frame);
+    if (matched_) targetOffset_ = begin_;
     return frame.field;
 }
 
@@ -225,6 +238,7 @@ bool Walk::start_object(std::size_t /*count*/) {
     const FieldDescriptor* const field = beginValue();
     if (root) {
         frames_.push_back({.message = v1::Scene::descriptor(), .offset = begin_});
+        if (target_) frames_.back().matched = 0;
         return goesOn();
     }
     if (field == nullptr) return skipObject();
@@ -233,7 +247,7 @@ bool Walk::start_object(std::size_t /*count*/) {
         refuse(begin_, path(), fmt::format("is an object, must be {}", asList ? "a list" : wantedText(*field)));
         return skipObject();
     }
-    frames_.push_back({.message = field->message_type(), .offset = begin_});
+    frames_.push_back({.message = field->message_type(), .offset = begin_, .matched = matched_});
     return goesOn();
 }
 
@@ -305,7 +319,7 @@ bool Walk::start_array(std::size_t /*count*/) {
         refuse(begin_, path(), fmt::format("is a list, must be {}", wantedText(*field)));
         return skipObject();
     }
-    frames_.push_back({.field = field, .offset = begin_});
+    frames_.push_back({.field = field, .offset = begin_, .matched = matched_});
     return goesOn();
 }
 
