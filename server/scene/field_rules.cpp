@@ -135,7 +135,7 @@ std::string whyOutOfRange(const pb::FieldDescriptor& field, double value) {
     const v1::Rule& rule = ruleOf(field);
     const double lowest =
         rule.vector() ? -largestComponent : (isWhole(field) ? 0 : -std::numeric_limits<double>::max());
-    const double whole = field.cpp_type() == pb::FieldDescriptor::CPPTYPE_UINT64 ? 0x1p64 : 0x1p32 - 1;
+    const double whole = field.cpp_type() == pb::FieldDescriptor::CPPTYPE_UINT64 ? largestWhole : 0x1p32 - 1;
     const double highest = rule.vector() ? largestComponent : (isWhole(field) ? whole : -lowest);
     const double low = rule.has_min() ? rule.min() : lowest;
     const double high = rule.has_max() ? rule.max() : highest;

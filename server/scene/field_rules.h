@@ -24,6 +24,9 @@ std::vector<std::string> namesOf(const google::protobuf::EnumDescriptor& values)
 std::vector<std::string> namesOf(const google::protobuf::OneofDescriptor& oneof);
 std::vector<std::string> namesOf(const google::protobuf::Descriptor& message);
 
+// The largest number below 2^64 (double).
+constexpr double largestWhole = 0x1.fffffffffffffp63;
+
 // Returns true if the value is a whole number, not negative.
 bool isWhole(const google::protobuf::FieldDescriptor& field);
 

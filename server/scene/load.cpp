@@ -54,12 +54,19 @@ Result<Scene> buildText(const std::string& text, const std::string& source, cons
                         const std::optional<std::filesystem::path>& directory, const Overrides& overrides,
                         Progress* progress) {
     auto message = parseJson(text, source);
-    if (!message) return tl::unexpected(message.error());
-    if (message->name().empty()) message->set_name(std::string(cutUtf8(utf8(name), longestName)));
-    return buildIn(directory, *message, overrides, progress).map_error([&](Error error) {
+    const auto withPlace = [&](Error error) {
         error.where = placeOf(text, source, offsetOf(text, error.where), error.where);
         return error;
-    });
+    };
+    if (!message) {
+        const std::string prefix = source + ": ";
+        Error error = message.error();
+        if (!error.where.starts_with(prefix)) return tl::unexpected(error);
+        error.where.erase(0, prefix.size());
+        return tl::unexpected(withPlace(error));
+    }
+    if (message->name().empty()) message->set_name(std::string(cutUtf8(utf8(name), longestName)));
+    return buildIn(directory, *message, overrides, progress).map_error(withPlace);
 }
 
 Result<Scene> buildFile(const std::string& text, const std::string& source, const Overrides& overrides,

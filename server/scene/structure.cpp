@@ -1,6 +1,8 @@
 #include "scene/structure.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -93,7 +95,8 @@ class Walk {
                       [](const FieldDescriptor& f) { return f.cpp_type() == FieldDescriptor::CPPTYPE_BOOL; });
     }
     bool number_integer(std::int64_t value) { return number(static_cast<double>(value)); }
-    bool number_unsigned(std::uint64_t value) { return number(static_cast<double>(value)); }
+    // The largest ones would be rounded to 2^64, which is one too many.
+    bool number_unsigned(std::uint64_t value) { return number(std::min(static_cast<double>(value), largestWhole)); }
     bool number_float(double value, const std::string& /*text*/) { return number(value); }
     bool string(const std::string& value);
     bool binary(const nlohmann::json::binary_t& /*value*/) { return true; }  // not in JSON
@@ -207,6 +210,11 @@ bool Walk::number(double value) {
 void Walk::checkText(const FieldDescriptor& field, const std::string& value) {
     const v1::Rule& rule = ruleOf(field);
     const bool bytes = field.type() == FieldDescriptor::TYPE_BYTES;
+    const auto isBase64 = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+               std::string_view("+/-_=").find(c) != std::string::npos;
+    };
+    if (bytes && !std::ranges::all_of(value, isBase64)) refuse(begin_, path(), "is not Base64");
     const std::size_t size = bytes ? value.size() / 4 * 3 : value.size();
     if (rule.most() > 0 && size > rule.most() + (bytes ? 2 : 0))
         refuse(begin_, path(), fmt::format("is {} bytes long, must be at most {}", size, rule.most()));
@@ -225,8 +233,11 @@ bool Walk::string(const std::string& value) {
             return true;
         }
         // JSON has whole numbers of 64 bits as text, because many readers keep only 53 bits.
-        if (field.cpp_type() == FieldDescriptor::CPPTYPE_UINT64)
-            return !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
+        if (field.cpp_type() == FieldDescriptor::CPPTYPE_UINT64) {
+            std::uint64_t whole = 0;
+            const char* const end = value.data() + value.size();
+            return std::from_chars(value.data(), end, whole) == std::from_chars_result{end, std::errc{}};
+        }
         if (field.cpp_type() != FieldDescriptor::CPPTYPE_STRING) return false;
         checkText(field, value);
         return true;

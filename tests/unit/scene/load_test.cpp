@@ -196,6 +196,12 @@ TEST(SceneLoad, ErrorsOfTheReaderHaveTheirPlace) {
         "name");
 }
 
+TEST(SceneLoad, ErrorsOfTheParserHaveTheirPlace) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusalOfFile(folder, cube(R"("obstacles": [{"mesh": {"data": "abcde"}}])")),
+              "falling.json:2:33: obstacles[0].mesh.data: invalid value \"abcde\" for type TYPE_BYTES");
+}
+
 TEST(SceneLoad, SleepCanBeTurnedOff) {
     EXPECT_TRUE(load("bounce", "gpu")->sleep.enabled);
     EXPECT_FALSE(load("bounce", "gpu", {.noSleep = true})->sleep.enabled);

@@ -77,6 +77,26 @@ TEST(SceneStructure, ValuesFollowTheRules) {
               ":2:9 name: is 201 bytes long, must be at most 200\n");
 }
 
+TEST(SceneStructure, WholeNumbersFitTheirBits) {
+    const auto withSeed = [](const std::string& seed) {
+        return mistakesWith(R"("groups": [{"fill": {"min": [0,0,0], "max": [1,1,1], "count": 3, "seed": )" + seed +
+                            "}}]");
+    };
+    for (const char* right : {"0", "18446744073709551615", "\"0\"", "\"18446744073709551615\""})
+        EXPECT_EQ(withSeed(right), "") << right;
+    for (const char* wrong :
+         {"18446744073709551616", "\"18446744073709551616\"", "-1", "\"-1\"", "1.5", "\"\"", "\" 1\""})
+        EXPECT_TRUE(withSeed(wrong).starts_with(":2:74 groups[0].fill.seed: is ")) << wrong << withSeed(wrong);
+    EXPECT_EQ(mistakesWith(R"("groups": [{"fill": {"min": [0,0,0], "max": [1,1,1], "count": 4294967296}}])"),
+              ":2:63 groups[0].fill.count: is 4294967296, must be at most 4294967295\n");
+}
+
+TEST(SceneStructure, BytesAreBase64) {
+    EXPECT_EQ(mistakesWith(R"("obstacles": [{"mesh": {"data": "diAwIDAgMAo="}}])"), "");
+    EXPECT_EQ(mistakesWith(R"("obstacles": [{"mesh": {"data": "a b"}}])"),
+              ":2:33 obstacles[0].mesh.data: is not Base64\n");
+}
+
 TEST(SceneStructure, MissingAndDoubledFieldsAreNamed) {
     EXPECT_EQ(mistakesOfText("{}"), ":1:1 bounds: is missing; it must be an object\n");
     EXPECT_EQ(mistakesOfText("{\n \"bounds\": {\"min\": [0,0,0]}}"),
