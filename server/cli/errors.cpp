@@ -4,17 +4,15 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <climits>
 #include <cstdlib>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "cli/exit_codes.h"
+#include "core/suggestion.h"
 #include "core/text.h"
 
 namespace spherule::cli {
@@ -31,26 +29,9 @@ Usage& usage() {
     return own;
 }
 
-// Edit distance: number of characters to insert, remove or replace.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0U);
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t same = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, same}));
-        }
-    }
-    return row.back();
-}
-
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-    constexpr std::size_t farthest = 2;
-    const auto nearest =
-        std::ranges::min_element(names, {}, [&](const std::string& name) { return distance(word, name); });
-    if (nearest == names.end() || distance(word, *nearest) > std::min(farthest, word.size() - 1)) return "";
-    return fmt::format(" (did you mean {}?)", *nearest);
+    const auto nearest = suggestionFor(word, names);
+    return nearest ? fmt::format(" (did you mean {}?)", *nearest) : "";
 }
 
 const CLI::App* commandOf(const CLI::App& app) {
@@ -58,9 +39,17 @@ const CLI::App* commandOf(const CLI::App& app) {
     return commands.empty() ? nullptr : commands.front();
 }
 
+// The command, and within it the chosen part: `scene` and `check`.
+std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
+    std::vector<const CLI::App*> commands;
+    for (const CLI::App* at = commandOf(app); at != nullptr; at = commandOf(*at)) commands.push_back(at);
+    return commands;
+}
+
 std::string helpOf(const CLI::App& app) {
-    const CLI::App* const command = commandOf(app);
-    return command == nullptr ? "spherule --help" : fmt::format("spherule {} --help", command->get_name());
+    std::string words = "spherule";
+    for (const CLI::App* command : commandsOf(app)) words += " " + command->get_name();
+    return words + " --help";
 }
 
 // The variable that set the option; empty if its value came from elsewhere.
@@ -71,17 +60,18 @@ std::string variableOf(const CLI::Option& option) {
 }
 
 std::string unknownText(const CLI::App& app, const std::string& word) {
-    const CLI::App* const command = commandOf(app);
+    std::vector<const CLI::App*> chosen = commandsOf(app);
+    chosen.insert(chosen.begin(), &app);
     std::vector<std::string> names;
-    if (command == nullptr && !word.starts_with('-')) {
-        for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; }))
-            names.push_back(known->get_name());
+    for (const CLI::App* known : chosen.back()->get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(known->get_name());
+    if (!names.empty() && !word.starts_with('-'))
         return fmt::format("\"{}\" is no command{}; there are {}", word, suggestion(word, names),
                            fmt::join(names, ", "));
-    }
     if (!word.starts_with('-')) return fmt::format("\"{}\" is one word too many", word);
-    for (const CLI::App* known : {&app, command})
-        for (const CLI::Option* option : known == nullptr ? std::vector<const CLI::Option*>() : known->get_options())
+    names.clear();
+    for (const CLI::App* known : chosen)
+        for (const CLI::Option* option : known->get_options())
             if (option->nonpositional()) names.push_back(option->get_name());
     return fmt::format("{}: is no option{}", word, suggestion(word, names));
 }

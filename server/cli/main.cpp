@@ -50,6 +50,7 @@ int runCommand(int argc, char** argv) {
     addPlay(app, exitCode);
     addExport(app, exitCode);
     addPlan(app, exitCode);
+    addScene(app, exitCode);
     addCtl(app, exitCode);
     addHealth(app, exitCode);
     addProbe(app, exitCode);

@@ -28,6 +28,7 @@ void addRun(CLI::App& app, int& exitCode);
 void addPlay(CLI::App& app, int& exitCode);
 void addExport(CLI::App& app, int& exitCode);
 void addPlan(CLI::App& app, int& exitCode);
+void addScene(CLI::App& app, int& exitCode);
 void addCtl(CLI::App& app, int& exitCode);
 void addHealth(CLI::App& app, int& exitCode);
 void addProbe(CLI::App& app, int& exitCode);

@@ -46,14 +46,6 @@ std::optional<Syntax> syntaxOf(std::string_view message, std::string_view text) 
     return syntax;
 }
 
-std::string lineAndColumn(std::string_view text, std::size_t offset) {
-    const std::string_view before = text.substr(0, std::min(offset, text.size()));
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t newline = before.rfind('\n');
-    const std::size_t column = newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
-    return fmt::format(":{}:{}", line, column);
-}
-
 // Other errors have the form "(path) name: reason", where "(path)", "name" or both may be missing.
 JsonError misfit(std::string_view message, std::string_view what) {
     constexpr std::size_t longestName = 80;

@@ -1,5 +1,8 @@
 #include "core/text.h"
 
+#include <algorithm>
+
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 namespace spherule {
@@ -38,6 +41,14 @@ std::string withoutControls(std::string_view text) {
         }
     }
     return plain;
+}
+
+std::string lineAndColumn(std::string_view text, std::size_t offset) {
+    const std::string_view before = text.substr(0, std::min(offset, text.size()));
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::string_view own = before.substr(before.rfind('\n') + 1);  // npos + 1 is 0
+    const auto column = 1 + std::ranges::count_if(own, [](char c) { return !continuesCharacter(c); });
+    return fmt::format(":{}:{}", line, column);
 }
 
 }  // namespace spherule

@@ -16,4 +16,7 @@ std::string_view cutUtf8(std::string_view text, std::size_t most);
 // Returns valid UTF-8 with '?' for each control character except the line feed, so that it cannot control a terminal.
 std::string withoutControls(std::string_view text);
 
+// Returns ":LINE:COLUMN" of the byte `offset` in UTF-8, both from 1. Columns count characters.
+std::string lineAndColumn(std::string_view text, std::size_t offset);
+
 }  // namespace spherule

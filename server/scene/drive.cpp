@@ -68,7 +68,7 @@ Drive readDrive(Check& check, const v1::Drive& message, const glm::dvec3& pivot,
     const char* const unit = drive.turns ? " rad" : " m";
     const char* const perSecond = drive.turns ? " rad/s" : " m/s";
     if (drive.turns) {
-        if (message.mass() != 0) drive.mass = check.upTo(message.mass(), largest, at(field, "mass"), " kg");
+        if (message.mass() != 0) drive.mass = check.within(message.mass(), smallest, largest, at(field, "mass"), " kg");
         drive.inertia = check.within(message.inertia(), smallest, largest, at(field, "inertia"), " kg m^2");
         drive.force = check.within(message.torque(), -largest, largest, at(field, "torque"), " N m");
         drive.centre = check.vectorOr(message.centre(), pivot, at(field, "centre"));

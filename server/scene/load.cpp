@@ -12,6 +12,7 @@
 #include "scene/catalog.h"
 #include "scene/check.h"
 #include "scene/json.h"
+#include "scene/structure.h"
 
 namespace spherule::scene {
 
@@ -24,16 +25,55 @@ bool isPath(std::string_view source) {
 constexpr std::uint64_t longestFile = 32U << 20U;  // bytes of JSON
 constexpr std::ptrdiff_t mostObjects = 2'000'000;  // each takes about 130 bytes when parsed, even if empty
 
+// The place of a mistake: "file:line:column: field.path".
+std::string placeOf(const std::string& text, const std::string& source, std::size_t offset, const std::string& path) {
+    return fmt::format("{}{}{}{}", source, lineAndColumn(text, offset), path.empty() ? "" : ": ", path);
+}
+
+Result<std::string> readText(const std::string& source) {
+    const heartbeat::Pause reading;
+    auto text = readFile(source, longestFile);
+    if (!text) return text;
+    dropByteOrderMark(*text);
+    if (const auto objects = std::count(text->begin(), text->end(), '{'); objects > mostObjects)
+        return fail(ErrorKind::Input, source,
+                    fmt::format("has {} objects, at most {} are allowed; give so many spheres as csv, xyz, lammps, "
+                                "lattice or fill",
+                                objects, mostObjects));
+    return text;
+}
+
+std::vector<Error> structuralErrors(const std::string& text, const std::string& source) {
+    std::vector<Error> errors;
+    for (const Mistake& mistake : structuralMistakes(text))
+        errors.push_back({ErrorKind::Input, placeOf(text, source, mistake.offset, mistake.path), mistake.message});
+    return errors;
+}
+
+// Builds a scene from a text without structural mistakes.
 Result<Scene> buildText(const std::string& text, const std::string& source, const std::string& name,
                         const std::optional<std::filesystem::path>& directory, const Overrides& overrides,
                         Progress* progress) {
     auto message = parseJson(text, source);
-    if (!message) return tl::unexpected(message.error());
-    if (message->name().empty()) message->set_name(std::string(cutUtf8(utf8(name), longestName)));
-    return buildIn(directory, *message, overrides, progress).map_error([&](Error error) {
-        error.where = fmt::format("{}: {}", source, error.where);
+    const auto withPlace = [&](Error error) {
+        error.where = placeOf(text, source, offsetOf(text, error.where), error.where);
         return error;
-    });
+    };
+    if (!message) {
+        const std::string prefix = source + ": ";
+        Error error = message.error();
+        if (!error.where.starts_with(prefix)) return tl::unexpected(error);
+        error.where.erase(0, prefix.size());
+        return tl::unexpected(withPlace(error));
+    }
+    if (message->name().empty()) message->set_name(std::string(cutUtf8(utf8(name), longestName)));
+    return buildIn(directory, *message, overrides, progress).map_error(withPlace);
+}
+
+Result<Scene> buildFile(const std::string& text, const std::string& source, const Overrides& overrides,
+                        Progress* progress) {
+    const std::filesystem::path path(source);
+    return buildText(text, source, path.stem().string(), path.parent_path(), overrides, progress);
 }
 
 }  // namespace
@@ -41,17 +81,13 @@ Result<Scene> buildText(const std::string& text, const std::string& source, cons
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides,
                    Progress* progress) {
     if (isPath(source)) {
-        const heartbeat::Pause reading;
-        const std::filesystem::path path(source);
-        auto text = readFile(source, longestFile);
+        const auto text = readText(source);
         if (!text) return tl::unexpected(text.error());
-        dropByteOrderMark(*text);
-        if (const auto objects = std::count(text->begin(), text->end(), '{'); objects > mostObjects)
-            return fail(ErrorKind::Input, source,
-                        fmt::format("has {} objects, at most {} are allowed; give so many spheres as csv, xyz, lammps, "
-                                    "lattice or fill",
-                                    objects, mostObjects));
-        return buildText(*text, source, path.stem().string(), path.parent_path(), overrides, progress);
+        std::vector<Error> errors = structuralErrors(*text, source);
+        if (errors.empty()) return buildFile(*text, source, overrides, progress);
+        if (errors.size() > 1)
+            errors[0].message += fmt::format(" ({} more: see `spherule scene check`)", errors.size() - 1);
+        return tl::unexpected(errors[0]);
     }
     if (const auto text = embeddedScene(source, deviceKind)) {
         return buildText(std::string(*text), source, source, std::nullopt, overrides, progress);
@@ -59,6 +95,15 @@ Result<Scene> load(const std::string& source, std::string_view deviceKind, const
     return fail(ErrorKind::Input, shown(source),
                 fmt::format("is not the name of a scene; there are {}. A file is named with its ending, .json",
                             fmt::join(names(), ", ")));
+}
+
+std::vector<Error> mistakesOf(const std::string& path) {
+    const auto text = readText(path);
+    if (!text) return {text.error()};
+    std::vector<Error> errors = structuralErrors(*text, path);
+    if (errors.empty())
+        if (const auto scene = buildFile(*text, path, {}, nullptr); !scene) errors.push_back(scene.error());
+    return errors;
 }
 
 }  // namespace spherule::scene

@@ -37,6 +37,10 @@ struct Overrides {
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides = {},
                    Progress* progress = nullptr);
 
+// Returns all structural mistakes of the scene's file, or else the first mistake that load() finds; empty if load()
+// accepts it. Mistakes are "file:line:column: field.path". At most mostMistakes are returned.
+std::vector<Error> mistakesOf(const std::string& path);
+
 // An inline scene, as a client sends it: may not name files. Errors carry the field path.
 Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {}, Progress* progress = nullptr);
 

@@ -25,7 +25,7 @@ class Usage(unittest.TestCase):
 
     def test_what_is_unknown_is_named_with_what_is_like_it(self):
         self.assertEqual(self.refusal("rum"), '"rum" is no command (did you mean run?); there are serve, run, play, export, '
-                                              'plan, ctl, health, probe, measure; see `spherule --help`')
+                                              'plan, scene, ctl, health, probe, measure; see `spherule --help`')
         self.assertNotIn("did you mean", self.refusal("simulate", "bounce"))
         self.assertEqual(self.refusal("run", "bounce", "--quailty", "fast"),
                          "--quailty: is no option (did you mean --quality?); see `spherule run --help`")

@@ -28,6 +28,12 @@ test("a right scene is a message", () => {
   assert.equal(readScene(scene.replace('"fixed"', '"sphere_contacts": true}, {"fixed"')).faults.length, 1);
 });
 
+test("a file may name the schema for editors", () => {
+  const { scene: read, faults } = readScene(scene.replace('"bounds"', '"$schema": "scene.schema.json", "bounds"'));
+  assert.deepEqual(faults, []);
+  assert.equal(read?.groups.length, 1);
+});
+
 test("faults are at their lines", () => {
   const cases: [string, string, number, RegExp][] = [
     ['"fixed": true', '"fixed": true,', 8, /not JSON/],

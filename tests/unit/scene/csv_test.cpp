@@ -19,7 +19,8 @@ class SceneCsv : public ::testing::Test {
     std::string refusal(const std::string& csv, const std::string& more = "") {
         const auto scene = loaded(csv, more);
         if (scene) return "accepted";
-        EXPECT_NE(scene.error().where.find("scene.json: groups[0].csv.file"), std::string::npos) << scene.error().where;
+        EXPECT_NE(scene.error().where.find("scene.json:2:30: groups[0].csv.file"), std::string::npos)
+            << scene.error().where;
         const std::string& text = scene.error().message;
         return text.substr(std::min(text.size(), text.find("balls.csv:")));
     }
@@ -81,7 +82,7 @@ TEST_F(SceneCsv, NeedsAKnownHeader) {
 TEST_F(SceneCsv, NeedsARadius) {
     const auto scene = loaded("x,y,z\n0.5,0.5,0.5\n");
     ASSERT_FALSE(scene);
-    EXPECT_TRUE(scene.error().where.ends_with("scene.json: groups[0].radius")) << scene.error().where;
+    EXPECT_TRUE(scene.error().where.ends_with("scene.json:2:13: groups[0].radius")) << scene.error().where;
 }
 
 TEST_F(SceneCsv, MustExist) {

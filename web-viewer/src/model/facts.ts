@@ -1,7 +1,8 @@
 import { periodsOf } from "../connection/periods";
 import type { MeshFacts, SceneFacts } from "../gen/spherule/v1/facts_pb";
+import type { Obstacle as Message } from "../gen/spherule/v1/obstacle_pb";
 import { Face } from "../gen/spherule/v1/scene_pb";
-import type { Light as LightMessage, Obstacle as Message } from "../gen/spherule/v1/scene_pb";
+import type { Light as LightMessage } from "../gen/spherule/v1/scene_pb";
 import { hexToRgb } from "../colour/rgb";
 import type { Rgb } from "../colour/rgb";
 import { placementOf } from "./placement";

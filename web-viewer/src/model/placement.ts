@@ -1,5 +1,5 @@
 import * as vec3 from "gl-matrix/esm/vec3.js";
-import type { Obstacle } from "../gen/spherule/v1/scene_pb";
+import type { Obstacle } from "../gen/spherule/v1/obstacle_pb";
 
 /** How an obstacle lies in the scene: its shape is turned about the origin of its coordinates, then moved. */
 export interface Placement {

@@ -16,7 +16,7 @@ type Shape = Obstacle["shape"];
 type Bounds = { min: Vec3; max: Vec3 };
 type Draw<Case> = (shape: Extract<Shape, { case: Case }>["value"], colour: number[]) => Surface;
 
-/** One function for each shape of scene.proto that has an end. */
+/** One function for each shape of obstacle.proto that has an end. */
 const surfaces: { [Case in Exclude<NonNullable<Shape["case"]>, "plane" | "mesh" | "heightField">]: Draw<Case> } = {
   box: ({ min, max, hollow }, colour) => {
     const sides = faces(min as Vec3, max as Vec3);
