@@ -41,7 +41,8 @@ Result<void> StateDump::write(sim::Simulation& simulation) {
         fmt::format_to(std::back_inserter(text),
                        "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{}\n",
                        simulation.time(), state.idAt(rank), x.x, x.y, x.z, v.x, v.y, v.z, state.position[rank].w, w.x,
-                       w.y, w.z, scene.spheres[rank].material, scene.spheres[rank].group, std::signbit(v.w) ? 1 : 0, contacts[rank]);
+                       w.y, w.z, scene.spheres[rank].material, scene.spheres[rank].group, std::signbit(v.w) ? 1 : 0,
+                       contacts[rank]);
         if (text.size() < part) continue;
         if (auto done = file_.write(text); !done) return done;
         text.clear();

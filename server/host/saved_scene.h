@@ -19,7 +19,8 @@ namespace spherule::host {
 class SavedScene : public net::Document {
   public:
     // `centre`: of the bounds. `claim`: for the memory of the state.
-    SavedScene(v1::Scene scene, std::vector<std::vector<std::uint32_t>> ranks, sim::State state, glm::dvec3 centre, memory::Claim claim);
+    SavedScene(v1::Scene scene, std::vector<std::vector<std::uint32_t>> ranks, sim::State state, glm::dvec3 centre,
+               memory::Claim claim);
 
     std::string next() override;
 

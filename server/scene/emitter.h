@@ -58,11 +58,11 @@ struct Emitter {
     double rate = 0;      // spheres per second of work; 0: massFlow
     double massFlow = 0;  // kg per second of work
     RadiusDistribution radii{};
-    std::uint8_t material = 0;  // index into Scene::materials
-    double density = 1000;      // of the material, kg/m^3
-    glm::dvec3 velocity{};      // m/s
-    double velocitySpread = 0;  // m/s: velocities are uniform in a ball of this radius about `velocity`
-    glm::vec3 spin{};           // rad/s
+    std::uint8_t material = 0;             // index into Scene::materials
+    double density = 1000;                 // of the material, kg/m^3
+    glm::dvec3 velocity{};                 // m/s
+    double velocitySpread = 0;             // m/s: velocities are uniform in a ball of this radius about `velocity`
+    glm::vec3 spin{};                      // rad/s
     std::optional<std::uint64_t> total{};  // spheres; nullopt: no end
     double begin = 0;                      // s simulated
     std::vector<Span> schedule{};          // ascending; empty: always
@@ -72,7 +72,7 @@ struct Emitter {
     std::uint16_t group = 0;   // of its spheres: index into Scene::groups
     // Some of its spheres, among them a smallest and a largest one. Substeps, features and cells must suit them.
     std::vector<Sphere> samples{};
-    double expected = 0;  // spheres present at the same time, to choose the number of cells
+    double expected = 0;                           // spheres present at the same time, to choose the number of cells
     std::shared_ptr<const v1::Emitter> message{};  // as in the scene
 
     // Returns the seconds of work from the beginning until `time` (s simulated).

@@ -48,21 +48,23 @@ EmissionRegion readBox(Check& check, const v1::Box& message, const std::string& 
 EmissionRegion readBall(Check& check, const v1::SphereShape& message, const std::string& field) {
     checkSolid(check, message, field);
     return BallRegion{check.vector(message.centre(), at(field, "centre")),
-                check.upTo(message.radius(), largestComponent, at(field, "radius"), " m")};
+                      check.upTo(message.radius(), largestComponent, at(field, "radius"), " m")};
 }
 
 EmissionRegion readCylinder(Check& check, const v1::CylinderShape& message, const std::string& field) {
     checkSolid(check, message, field);
-    const CylinderRegion cylinder{check.vector(message.from(), at(field, "from")), check.vector(message.to(), at(field, "to")),
-                            check.upTo(message.radius(), largestComponent, at(field, "radius"), " m")};
+    const CylinderRegion cylinder{check.vector(message.from(), at(field, "from")),
+                                  check.vector(message.to(), at(field, "to")),
+                                  check.upTo(message.radius(), largestComponent, at(field, "radius"), " m")};
     if (check.ok() && cylinder.from == cylinder.to) check.refuse(at(field, "to"), "is the same point as from");
     return cylinder;
 }
 
 EmissionRegion readDisc(Check& check, const v1::DiscShape& message, const std::string& field) {
-    DiscRegion disc{check.vector(message.centre(), at(field, "centre")), check.vector(message.normal(), at(field, "normal")),
-              check.upTo(message.radius(), largestComponent, at(field, "radius"), " m"),
-              check.within(message.hole(), 0, largestComponent, at(field, "hole"), " m")};
+    DiscRegion disc{check.vector(message.centre(), at(field, "centre")),
+                    check.vector(message.normal(), at(field, "normal")),
+                    check.upTo(message.radius(), largestComponent, at(field, "radius"), " m"),
+                    check.within(message.hole(), 0, largestComponent, at(field, "hole"), " m")};
     if (check.ok() && !(disc.hole < disc.radius))
         check.refuse(at(field, "hole"), fmt::format("is {} m, must be below the radius, {} m", disc.hole, disc.radius));
     const double length = glm::length(disc.normal);
@@ -99,8 +101,9 @@ void readSchedule(Check& check, const v1::Emitter& message, const std::string& f
         const Span span{check.within(message.schedule(k).from(), 0, largestComponent, at(place, "from"), " s"),
                         check.within(message.schedule(k).to(), 0, largestComponent, at(place, "to"), " s")};
         if (check.ok() && span.from < end)
-            check.refuse(at(place, "from"),
-                         fmt::format("is {} s, but the time before it ends at {} s; give them in order", span.from, end));
+            check.refuse(
+                at(place, "from"),
+                fmt::format("is {} s, but the time before it ends at {} s; give them in order", span.from, end));
         if (check.ok() && !(span.to > span.from))
             check.refuse(at(place, "to"), fmt::format("is {} s, must be above from, {} s", span.to, span.from));
         emitter.schedule.push_back(span);
@@ -253,9 +256,10 @@ void readEmitters(Check& check, const v1::Scene& message, std::optional<std::uin
         if (!check.ok()) return;
         births += meanRate(emitter) * scene.step;
         if (births > mostBirthsPerStep)
-            check.refuse(field, fmt::format("brings the emitters to {:.6g} spheres in a step, at most {:g} are allowed; "
-                                            "lower the flow, or shorten the step",
-                                            births, mostBirthsPerStep));
+            check.refuse(field,
+                         fmt::format("brings the emitters to {:.6g} spheres in a step, at most {:g} are allowed; "
+                                     "lower the flow, or shorten the step",
+                                     births, mostBirthsPerStep));
         scene.emitters.push_back(std::move(emitter));
     }
 }

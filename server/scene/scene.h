@@ -157,7 +157,7 @@ struct Scene {
     Bounds bounds;
     std::vector<Obstacle> obstacles;
     std::vector<Group> groups;
-    std::vector<Sphere> spheres;            // in the order of their ids
+    std::vector<Sphere> spheres;  // in the order of their ids
     std::vector<Emitter> emitters;
     std::vector<Material> materials{Material{}};  // at least one
     std::vector<MaterialPair> pairs;

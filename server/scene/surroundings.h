@@ -22,8 +22,9 @@ std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::Repeat
 // Refuses meshes with more planes, edges and corners than contacts can be numbered for.
 void checkMeshParts(Check& check, const std::vector<Obstacle>& obstacles);
 
-// Refuses bounds in which float32 positions, relative to the centre, are coarser than 1e-4 of the smallest radius (`smallest`, m).
-// Also refuses round obstacles so large that distances from them would be as coarse. `field`: of the bounds.
+// Refuses bounds in which float32 positions, relative to the centre, are coarser than 1e-4 of the smallest radius
+// (`smallest`, m). Also refuses round obstacles so large that distances from them would be as coarse. `field`: of the
+// bounds.
 void checkResolution(Check& check, const Scene& scene, double smallest, std::string_view field);
 
 // The largest allowed depth of a sphere in a face or an obstacle, as a share of its radius. It covers the rounding of

@@ -146,9 +146,8 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
 }
 
 void updateLaunches(Plan& plan) {
-    for (auto* launches :
-         {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd, &plan.figures, &plan.inspection,
-          &plan.births})
+    for (auto* launches : {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd, &plan.figures,
+                           &plan.inspection, &plan.births})
         for (LaunchSpec& launch : *launches) {
             if (launch.launchRow) launch.count = plan.dispatchSizes.at(*launch.launchRow);
             if (launch.over != Varying::Nothing) launch.count = invocationsOver(launch.over, plan);

@@ -46,8 +46,8 @@ void Simulation::emit() {
         if (const auto added = addBorn(born); !added) {
             free.assign(free.size(), false);
             if (!std::exchange(noticedNoRoom_, true))
-                notices_.push_back(
-                    fmt::format("at step {}, emitters cannot make spheres, and try again: {}", steps_, added.error().text()));
+                notices_.push_back(fmt::format("at step {}, emitters cannot make spheres, and try again: {}", steps_,
+                                               added.error().text()));
         }
     flows_.emission.settle(scene_, free, time());
 }

@@ -112,13 +112,13 @@ void Simulation::emptySinks() {
     std::vector<std::uint32_t> ranks;
     Flows flows = flows_;
     for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
-        const auto sink = std::ranges::find_if(
-            sinks, [&](const scene::Box& box) { return box.contains(positionOf(state, rank)); });
+        const auto sink =
+            std::ranges::find_if(sinks, [&](const scene::Box& box) { return box.contains(positionOf(state, rank)); });
         if (sink == sinks.end()) continue;
         ranks.push_back(rank);
         const scene::Sphere& sphere = scene_.spheres[rank];
         flows.sinks[static_cast<std::size_t>(sink - sinks.begin())].add(time(), sphere.material,
-                                                                       massOf(scene_, sphere));
+                                                                        massOf(scene_, sphere));
     }
     const std::uint32_t none = 0;
     pipeline_->write<std::uint32_t>(Array::Counters, std::span(&none, 1), COUNTER_SUNK);

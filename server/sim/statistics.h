@@ -61,8 +61,8 @@ struct Statistics {
     std::uint64_t step = 0;
     double time = 0;  // s simulated
     std::uint32_t spheres = 0;
-    std::uint64_t born = 0;     // since the world began, the scene's spheres included
-    std::uint64_t removed = 0;  // by commands and sinks
+    std::uint64_t born = 0;                 // since the world began, the scene's spheres included
+    std::uint64_t removed = 0;              // by commands and sinks
     std::vector<EmitterCounts> emitters{};  // since the world began, in the order of the scene
     std::vector<SinkCounts> sinks{};
     double kineticEnergy = 0;

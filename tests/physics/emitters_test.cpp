@@ -70,7 +70,10 @@ scene::Scene crowd(scene::Model model, std::uint64_t seed, double rate, const st
         "emitters": [{{"box": {{"min": [-0.5, -0.5, 0.3], "max": [0.5, 0.5, 1]}}, "rate": {},
                       "radius": {{"uniform": {{"min": 0.02, "max": 0.04}}}}, "velocitySpread": 1, "seed": {}}}],
         "sinks": [{{"region": {{"min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 0.05]}}}}]}})",
-        periodic, model == scene::Model::Fast ? "FAST" : model == scene::Model::Balanced ? "BALANCED" : "ACCURATE",
+        periodic,
+        model == scene::Model::Fast       ? "FAST"
+        : model == scene::Model::Balanced ? "BALANCED"
+                                          : "ACCURATE",
         rate, seed));
     return scene;
 }
@@ -84,8 +87,8 @@ double deepestOfNew(const sim::State& state, const scene::Scene& scene, std::uin
         const double r = radiusOf(state, i);
         for (std::uint32_t k = 0; k < state.count(); ++k) {
             if (k == i) continue;
-            const double gap =
-                glm::length(scene::separation(x, positionOf(state, k), scene.bounds.periods())) - r - radiusOf(state, k);
+            const double gap = glm::length(scene::separation(x, positionOf(state, k), scene.bounds.periods())) - r -
+                               radiusOf(state, k);
             deepest = std::max(deepest, -gap / r);
         }
         deepest = std::max(deepest, (r - scene.obstacles[0].distance(x + scene.bounds.centre(), 0)) / r);
@@ -174,9 +177,10 @@ TEST(Emitters, OutgrowTheirGrid) {
         R"({"bounds": {"min": [-2, -2, 0], "max": [2, 2, 4]}, "groups": [{"radius": {"constant": 0.05},
         "list": {"spheres": [{"position": [0, 0, 1]}]}}], "quality": {"model": "FAST"}})"));
     scene::Scene scene = simulation->scene();
-    scene.emitters = sceneOf(R"({"bounds": {"min": [-2, -2, 0], "max": [2, 2, 4]}, "emitters": [{"box": {"min": [-2, -2, 0],
+    scene.emitters =
+        sceneOf(R"({"bounds": {"min": [-2, -2, 0], "max": [2, 2, 4]}, "emitters": [{"box": {"min": [-2, -2, 0],
         "max": [2, 2, 4]}, "rate": 60000, "total": 9000, "radius": {"constant": 0.05}}]})")
-                         .emitters;
+            .emitters;
     scene.groups.emplace_back();
     scene.emitters[0].group = 1;
     scene.emitters[0].expected = 10;

@@ -1,5 +1,5 @@
-#include "host/facts_message.h"
 #include "host/to_proto.h"
+#include "host/facts_message.h"
 
 #include <gtest/gtest.h>
 

@@ -54,21 +54,23 @@ TEST(Emitters, AreRefusedWithTheFieldAndTheReason) {
               "emitters[0].repeat: is 1 s, must be at least the end of the schedule, 2 s");
     EXPECT_EQ(refusalOf(with(R"("material": "lead")")).find("emitters[0].material: "), 0U);
     EXPECT_EQ(refusalOf(with(R"("colour": "blue")")).find("emitters[0].colour: "), 0U);
-    EXPECT_EQ(refusalOf(with(R"("velocity": [0, 0, 1e6])")).find("emitters[0]: makes spheres of radius 0.01 m with up to 1e+06 m/s; the scene"), 0U);
+    EXPECT_EQ(refusalOf(with(R"("velocity": [0, 0, 1e6])"))
+                  .find("emitters[0]: makes spheres of radius 0.01 m with up to 1e+06 m/s; the scene"),
+              0U);
     const std::string start = "emitters[0].";
     EXPECT_EQ(refusalOf(emitter(R"("box": {"min": [0, 0, 0], "max": [0, 0, 1]}, )" + std::string(flow))),
               start + "box: has no area: its min and max may be equal along one axis alone");
     EXPECT_EQ(refusalOf(emitter(R"("box": {"min": [0, 0, 0.5], "max": [1, 1, 0.4]}, )" + std::string(flow))),
               start + "box.max[2]: is 0.4, must not be below min, which is 0.5");
-    EXPECT_EQ(refusalOf(emitter(R"("disc": {"centre": [0, 0, 0], "normal": [0, 0, 0], "radius": 1}, )" +
-                                std::string(flow))),
-              start + "disc.normal: has no length");
+    EXPECT_EQ(
+        refusalOf(emitter(R"("disc": {"centre": [0, 0, 0], "normal": [0, 0, 0], "radius": 1}, )" + std::string(flow))),
+        start + "disc.normal: has no length");
     EXPECT_EQ(refusalOf(emitter(R"("disc": {"centre": [0, 0, 0], "normal": [0, 0, 1], "radius": 1, "hole": 1}, )" +
                                 std::string(flow))),
               start + "disc.hole: is 1 m, must be below the radius, 1 m");
-    EXPECT_EQ(refusalOf(emitter(R"("cylinder": {"from": [0, 0, 0], "to": [0, 0, 0], "radius": 1}, )" +
-                                std::string(flow))),
-              start + "cylinder.to: is the same point as from");
+    EXPECT_EQ(
+        refusalOf(emitter(R"("cylinder": {"from": [0, 0, 0], "to": [0, 0, 0], "radius": 1}, )" + std::string(flow))),
+        start + "cylinder.to: is the same point as from");
     EXPECT_EQ(refusalOf(emitter(R"("cylinder": {"from": [0, 0, 0], "to": [0, 0, 1], "radius": 1, "open": true}, )" +
                                 std::string(flow))),
               start + "cylinder.open: is true; only obstacles may be open");
@@ -80,9 +82,10 @@ TEST(Emitters, AreLimitedInNumberAndFlow) {
     EXPECT_EQ(refusalOf("\"emitters\": [" + many + "]"), "emitters: has 17 entries, must have at most 16");
     const std::string most = std::string(ball) + R"(, "rate": 200000, "radius": {"constant": 0.001})";
     EXPECT_EQ(refusalOf(emitter(most)), "accepted");
-    EXPECT_EQ(refusalOf("\"emitters\": [{" + most + "}, {" + most + "}]"),
-              "emitters[1]: brings the emitters to 6666.67 spheres in a step, at most 4096 are allowed; lower the flow, "
-              "or shorten the step");
+    EXPECT_EQ(
+        refusalOf("\"emitters\": [{" + most + "}, {" + most + "}]"),
+        "emitters[1]: brings the emitters to 6666.67 spheres in a step, at most 4096 are allowed; lower the flow, "
+        "or shorten the step");
 }
 
 TEST(Emitters, AreRefusedWithoutAnyFreePlace) {
@@ -164,8 +167,7 @@ TEST(Emitters, MakeSpheresUniformlyInTheirRegion) {
                 << region << axis;
         }
     };
-    moments(R"("box": {"min": [0.2, 0.3, 0.5], "max": [0.8, 0.7, 0.5]})", {0.5, 0.5, 0.5},
-            {0.36 / 12, 0.16 / 12, 0});
+    moments(R"("box": {"min": [0.2, 0.3, 0.5], "max": [0.8, 0.7, 0.5]})", {0.5, 0.5, 0.5}, {0.36 / 12, 0.16 / 12, 0});
     moments(R"("sphere": {"centre": [0.5, 0.5, 0.5], "radius": 0.3})", {0.5, 0.5, 0.5}, glm::dvec3(0.09 / 5));
     moments(R"("cylinder": {"from": [0.5, 0.5, 0.2], "to": [0.5, 0.5, 0.8], "radius": 0.2})", {0.5, 0.5, 0.5},
             {0.04 / 4, 0.04 / 4, 0.36 / 12});

@@ -49,8 +49,8 @@ TEST(Emission, MakesARateExactly) {
         const double rate = std::exp2(random.uniform(-2, 12));
         const double begin = random.uniform(-1, 1);
         const std::string step = "\"step\": " + std::to_string(random.uniform(0.001, 0.05)) + ", ";
-        const scene::Scene scene = withEmitter(
-            "\"rate\": " + std::to_string(rate) + ", \"begin\": " + std::to_string(begin), step);
+        const scene::Scene scene =
+            withEmitter("\"rate\": " + std::to_string(rate) + ", \"begin\": " + std::to_string(begin), step);
         Emission emission(scene, 0);
         const int steps = 200;
         advance(emission, scene, 0, steps, always);
@@ -121,9 +121,9 @@ TEST(Emission, KeepsFewSpheresWaiting) {
 
 // A sphere is where its flight since its time has taken it: the stream has no gaps between steps.
 TEST(Emission, MakesAContinuousStream) {
-    const scene::Scene scene = sceneWith(
-        R"("gravity": [0, 0, -10], "emitters": [{"box": {"min": [0.1, 0.1, 0.5], "max": [0.9, 0.9, 0.5]}, )"
-        R"("radius": {"constant": 0.001}, "rate": 6000, "velocity": [0, 0, 3]}])");
+    const scene::Scene scene =
+        sceneWith(R"("gravity": [0, 0, -10], "emitters": [{"box": {"min": [0.1, 0.1, 0.5], "max": [0.9, 0.9, 0.5]}, )"
+                  R"("radius": {"constant": 0.001}, "rate": 6000, "velocity": [0, 0, 3]}])");
     Emission emission(scene, 0);
     const double end = 0.05;
     const auto& births = emission.attempt(scene, end - scene.step, end);
