@@ -11,6 +11,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "scene/box.h"
 #include "scene/forces.h"
 #include "scene/motion.h"
 
@@ -114,16 +115,6 @@ inline glm::dvec3 separation(const glm::dvec3& a, const glm::dvec3& b, const glm
         if (periods[axis] > 0) d[axis] -= periods[axis] * std::floor(d[axis] / periods[axis] + 0.5);
     return d;
 }
-
-struct Box {
-    glm::dvec3 min{};
-    glm::dvec3 max{};
-
-    // The faces belong to the box.
-    [[nodiscard]] bool contains(const glm::dvec3& p) const {
-        return p.x >= min.x && p.y >= min.y && p.z >= min.z && p.x <= max.x && p.y <= max.y && p.z <= max.z;
-    }
-};
 
 class Shape;
 
