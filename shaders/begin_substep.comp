@@ -38,9 +38,9 @@ LANE_KERNEL(params.spheres) {
     if (HAS(FIELDS)) {
         real4 x = ROW(position, invocation);
         real3 gravity = HAS(GRAVITY) ? real3(params.gravity) : real3(0.0f, 0.0f, 0.0f);
-        real3 a = accelerationOnPath(gravity, real3(x), real3(v));
+        real3 a = accelerationOnPath(gravity, real3(x), real3(v), radiusOf(x), inverseMassOf(v));
         pull = a * params.substep;
-        fall = withDrag(a, real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
+        fall = withDrag(a, real3(x), real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
     }
     uints xz = ROW(accelerationXz, invocation);
     uints yz = ROW(accelerationYz, invocation);

@@ -33,10 +33,10 @@ vec3 freeChange(uint sphere, vec3 v, float inverseMass) {
 }
 
 // The potential energy that a sphere gains on the way from one place to another (J/kg).
-float potentialBetween(vec3 from, vec3 to) {
+float potentialBetween(vec3 from, vec3 to, float radius, float inverseMass) {
     float gained = 0.0f;
     if (HAS(GRAVITY)) gained = -dot3(vec3(params.gravity), to - from);
-    if (HAS(FIELDS)) gained += fieldPotential(to) - fieldPotential(from);
+    if (HAS(FIELDS)) gained += fieldPotential(to, radius, inverseMass) - fieldPotential(from, radius, inverseMass);
     return gained;
 }
 
@@ -57,7 +57,9 @@ KERNEL(params.statisticBlocks) {
             float radius = radiusOf(position[k]);
             gained += 0.2f * radius * radius * dot3(spin - startOfSpin, spin + startOfSpin);
         }
-        if (HAS(FAST)) gained += potentialBetween(vec3(startPosition[k]), vec3(position[k]));
+        if (HAS(FAST))
+            gained += potentialBetween(vec3(startPosition[k]), vec3(position[k]), radiusOf(position[k]),
+                                       inverseMassOf(v));
         gained = gained / inverseMassOf(v);
         // A state that is not finite is reported elsewhere.
         if (abs(gained) < 1.0e30f) work += gained;

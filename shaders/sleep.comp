@@ -86,12 +86,16 @@ KERNEL(params.spheres) {
         if (HAS(FIELDS)) {
             // The threshold has no drag. Drag takes all of gravity from a sphere at its terminal speed, and leaves two
             // differences of rounding to compare.
-            pull = accelerationOnPath(pull, p, vec3(u));
-            change = withDrag(pull, vec3(u), radiusOf(position[invocation]), inverseMassOf(v));
+            float radius = radiusOf(position[invocation]);
+            pull = accelerationOnPath(pull, p, vec3(u), radius, inverseMassOf(v));
+            change = withDrag(pull, p, vec3(u), radius, inverseMassOf(v));
         }
         vec3 contactChange = vec3(v) - vec3(u) - change * params.substep;
         float least = 0.5f * params.substep;
-        fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > least * least * dot3(pull, pull);
+        float weight = dot3(pull, pull);
+        // Fields may balance gravity, so that nothing carries the sphere.
+        if (HAS(FIELDS)) weight = max(weight, 0.01f * dot3(vec3(params.gravity), vec3(params.gravity)));
+        fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > least * least * weight;
     }
     if (HAS(FRICTION)) {
         vec3 spin = vec3(angularVelocity[invocation]) * radiusOf(position[invocation]);

@@ -60,7 +60,7 @@ void visitPair(uint a, uint b) {
     // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce.
     float slowest = params.deadBand;
     if (HAS(FIELDS)) {
-        vec3 own = accelerationAt(vec3(pa));
+        vec3 own = accelerationAt(vec3(pa), radiusOf(pa), inverseMassOf(va));
         slowest = max(slowest, 2.0f * sqrt(dot3(own, own)) * params.substep);
     }
     // Spheres that touched in this substep may part already: they have met at the edge.

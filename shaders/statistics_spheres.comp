@@ -138,7 +138,7 @@ KERNEL(params.statisticBlocks) {
             flowDiagonal = flowDiagonal + vec3(v.x * v.x, v.y * v.y, v.z * v.z) * mass;
             flowOther = flowOther + vec3(v.x * v.y, v.x * v.z, v.y * v.z) * mass;
         }
-        if (HAS(FIELDS)) fieldEnergy += mass * fieldPotential(x);
+        if (HAS(FIELDS)) fieldEnergy += mass * fieldPotential(x, radiusOf(position[k]), inverseMassOf(v));
         squares += squared;
         fastest = max(fastest, squared);
         if (isAsleep(v)) sleeping += 1u;

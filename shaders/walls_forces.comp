@@ -128,7 +128,10 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
         RAISE_TO(motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
     }
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
-    if (HAS(GRAVITY) || HAS(FIELDS)) fall = accelerationAt(spherePoint) * (0.5f * params.substep);
+    if (HAS(GRAVITY) || HAS(FIELDS)) {
+        vec3 pull = accelerationAt(spherePoint, sphereRadius, sphereInverseMass);
+        fall = pull * (0.5f * params.substep);
+    }
     float inverseMass = sphereInverseMass;  // of the sphere and the body that it touches
     if (HAS(DRIVES)) yieldAlong = 0.0f;
     if (HAS(DRIVES) && driveRow != 0u) {

@@ -62,6 +62,10 @@ void addChanges(uint surface, vec3 velocityBefore, vec3 spinBefore) {
     addToSurfaceSums(sphereSlot, surface, impulse, moment);
 }
 
+vec3 pullOnSphere() {
+    return accelerationAt(spherePoint, sphereRadius, sphereInverseMass);
+}
+
 bool looksAhead() {
     return true;
 }
@@ -86,7 +90,7 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
         pushedOut = pushedOut + normal * push;
         return;
     }
-    float pull = HAS(GRAVITY) || HAS(FIELDS) ? dot3(accelerationAt(spherePoint), normal) : 0.0f;
+    float pull = HAS(GRAVITY) || HAS(FIELDS) ? dot3(pullOnSphere(), normal) : 0.0f;
     float impact = impactSpeed(speed, pull, push);
     float rebound = restitutionOf(contact) * impact;
     float since = 2.0f * push / (impact - speed);
@@ -136,6 +140,6 @@ KERNEL(params.spheres) {
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(omega, 0.0f);
     if (HAS(GRAVITY) || HAS(FIELDS)) {
         uint id = idOf(idAndMaterial[invocation]);
-        wallWork[id] = wallWork[id] - dot3(accelerationAt(spherePoint), pushedOut) / sphereInverseMass;
+        wallWork[id] = wallWork[id] - dot3(pullOnSphere(), pushedOut) / sphereInverseMass;
     }
 }

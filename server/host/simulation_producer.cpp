@@ -136,8 +136,9 @@ Result<void> SimulationProducer::advanceStep(Clock::time_point now) {
     // Sinks have taken energy with the spheres.
     const std::uint64_t population = host_.simulation().population().version();
     if (population != std::exchange(population_, population)) sampler_.invalidateBaseline();
-    // Springs and obstacles that move do work on spheres.
-    if (host_.simulation().pulling() || scene::anyMoves(host_.simulation().scene().obstacles))
+    // Springs of users, obstacles and media that move, and borders of fields do work on spheres.
+    const scene::Scene& scene = host_.simulation().scene();
+    if (host_.simulation().pulling() || scene::anyMoves(scene.obstacles) || scene.forces.addEnergy())
         sampler_.invalidateBaseline();
     if (host_.paused()) commands_.discardAnswer();
     reportNotices();

@@ -15,6 +15,7 @@
 #include "scene/periodic_axes.h"
 #include "scene/quality.h"
 #include "scene/radius_distribution.h"
+#include "scene/read_forces.h"
 #include "scene/shapes.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
@@ -108,7 +109,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
         check.refuse("name", fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
     scene.name = message.name();
     scene.description = message.description();
-    scene.forces = Forces::read(check, message);
+    scene.forces = readForces(check, message);
     scene.materials = readMaterials(check, message.materials());
     if (check.ok()) scene.pairs = readPairs(check, message.pairs(), scene.materials);
     if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");
@@ -129,6 +130,8 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
         checkResolution(check, scene, smallest, "bounds");
     if (check.ok())
         if (const auto fits = checkPeriodicAxes(scene); !fits) check.refuse(fits.error());
+    if (check.ok())
+        if (const auto rests = checkLiquids(scene); !rests) check.refuse(rests.error());
     if (check.ok()) readQuality(check, message.quality(), overrides, scene);
     if (check.ok()) checkEmitterSpeeds(check, scene);
     if (!check.ok()) return check.error();

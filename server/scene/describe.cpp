@@ -4,6 +4,7 @@
 #include "scene/emitters.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
+#include "scene/read_forces.h"
 #include "scene/surroundings.h"
 
 namespace spherule::scene {
@@ -13,23 +14,6 @@ namespace {
 void setBox(v1::Box& message, const Box& box) {
     setVector(*message.mutable_min(), box.min);
     setVector(*message.mutable_max(), box.max);
-}
-
-void setField(v1::Field& message, const Drag& drag) {
-    message.mutable_drag()->set_density(drag.density);
-    message.mutable_drag()->set_coefficient(drag.coefficient);
-}
-
-void setField(v1::Field& message, const Attraction& attraction) {
-    setVector(*message.mutable_attraction()->mutable_centre(), attraction.centre);
-    message.mutable_attraction()->set_strength(attraction.strength);
-    message.mutable_attraction()->set_softening(attraction.softening);
-}
-
-void setForces(v1::Scene& message, const Forces& forces) {
-    setVector(*message.mutable_gravity(), forces.gravity);
-    for (const Field& field : forces.fields)
-        std::visit([&](const auto& one) { setField(*message.add_fields(), one); }, field);
 }
 
 void setMaterials(v1::Scene& message, const Scene& scene) {
@@ -96,7 +80,7 @@ v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_
     v1::Scene message;
     message.set_name(scene.name);
     message.set_description(scene.description);
-    setForces(message, scene.forces);
+    writeForces(message, scene.forces);
     setMaterials(message, scene);
     setBounds(message, scene, time);
     setGroups(message, scene);

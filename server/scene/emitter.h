@@ -9,8 +9,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "scene/box.h"
 #include "scene/radius_distribution.h"
+#include "scene/region.h"
 #include "scene/sphere.h"
 
 namespace spherule::v1 {
@@ -18,19 +18,6 @@ class Emitter;
 }
 
 namespace spherule::scene {
-
-// All points within `radius` of a centre.
-struct BallRegion {
-    glm::dvec3 centre{};  // m
-    double radius = 0;    // m
-};
-
-// All points between two planes within `radius` of the line between the centres of the ends.
-struct CylinderRegion {
-    glm::dvec3 from{};  // m
-    glm::dvec3 to{};    // m
-    double radius = 0;  // m
-};
 
 // The surface between two circles.
 struct DiscRegion {

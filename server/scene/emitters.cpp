@@ -23,16 +23,8 @@ constexpr double mostRate = 1e6;  // spheres/s
 constexpr int mostSpans = 1000;
 constexpr std::uint64_t samplesPerEmitter = 256;
 
-// A region without walls, as `hollow` and `open` describe them.
-template <class Message>
-void checkSolid(Check& check, const Message& message, const std::string& field) {
-    if (message.hollow()) check.refuse(at(field, "hollow"), "is true; only obstacles may be hollow");
-    if constexpr (requires { message.open(); })
-        if (message.open()) check.refuse(at(field, "open"), "is true; only obstacles may be open");
-}
-
 EmissionRegion readBox(Check& check, const v1::Box& message, const std::string& field) {
-    checkSolid(check, message, field);
+    refuseForm(check, message.hollow(), at(field, "hollow"));
     const Box box{check.vector(message.min(), at(field, "min")), check.vector(message.max(), at(field, "max"))};
     int flat = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -43,21 +35,6 @@ EmissionRegion readBox(Check& check, const v1::Box& message, const std::string& 
     }
     if (flat > 1) check.refuse(field, "has no area: its min and max may be equal along one axis alone");
     return box;
-}
-
-EmissionRegion readBall(Check& check, const v1::SphereShape& message, const std::string& field) {
-    checkSolid(check, message, field);
-    return BallRegion{check.vector(message.centre(), at(field, "centre")),
-                      check.upTo(message.radius(), largestComponent, at(field, "radius"), " m")};
-}
-
-EmissionRegion readCylinder(Check& check, const v1::CylinderShape& message, const std::string& field) {
-    checkSolid(check, message, field);
-    const CylinderRegion cylinder{check.vector(message.from(), at(field, "from")),
-                                  check.vector(message.to(), at(field, "to")),
-                                  check.upTo(message.radius(), largestComponent, at(field, "radius"), " m")};
-    if (check.ok() && cylinder.from == cylinder.to) check.refuse(at(field, "to"), "is the same point as from");
-    return cylinder;
 }
 
 EmissionRegion readDisc(Check& check, const v1::DiscShape& message, const std::string& field) {

@@ -22,6 +22,36 @@ std::optional<std::size_t> axisAcross(const Obstacle& obstacle, const Bounds& bo
     return std::nullopt;
 }
 
+bool isAcross(const glm::dvec3& axis, const Bounds& bounds) {
+    for (int k = 0; k < 3; ++k)
+        if (bounds.periodic[static_cast<std::size_t>(k)] && std::abs(axis[k]) < 1 - parallel) return true;
+    return false;
+}
+
+// Refuses a field that is not the same along all periodic axes.
+Result<void> checkField(const Field& field, const Bounds& bounds, const std::string& name) {
+    constexpr const char* oneCentre = "has one centre, but a periodic axis would repeat it; remove one of them";
+    if (std::holds_alternative<Attraction>(field)) return fail(ErrorKind::Input, at(name, "attraction"), oneCentre);
+    if (std::holds_alternative<Spring>(field)) return fail(ErrorKind::Input, at(name, "spring"), oneCentre);
+    if (const auto* const drag = std::get_if<Drag>(&field))
+        if (drag->vortex && isAcross(drag->vortex->axis, bounds))
+            return fail(
+                ErrorKind::Input, at(name, "drag.vortex"),
+                "has one axis, but a periodic axis would repeat it; turn the vortex along the periodic axis, or "
+                "remove one of them");
+    const auto& region = regionOf(field);
+    if (!region) return {};
+    const auto* const box = std::get_if<Box>(&*region);
+    for (int axis = 0; axis < 3; ++axis)
+        if (bounds.periodic[static_cast<std::size_t>(axis)] &&
+            (box == nullptr || box->min[axis] > bounds.min[axis] || box->max[axis] < bounds.max[axis]))
+            return fail(ErrorKind::Input, name,
+                        fmt::format("has a region that ends along the periodic axis {}; with periodic axes, the region "
+                                    "must be a box that spans the bounds along them",
+                                    axisNames[axis]));
+    return {};
+}
+
 }  // namespace
 
 void readPeriodicAxes(Check& check, const v1::Bounds& message, std::string_view field, Bounds& bounds) {
@@ -67,11 +97,8 @@ Result<void> checkPeriodicAxes(const Scene& scene) {
         if (scene.obstacles[k].motion && scene.obstacles[k].motion->speeds().turn > 0)
             return fail(ErrorKind::Input, at(at("obstacles", k), "motion"),
                         "turns a plane; with periodic axes, planes must stay parallel to them");
-    const auto& fields = scene.forces.fields;
-    for (std::size_t k = 0; k < fields.size(); ++k)
-        if (std::holds_alternative<Attraction>(fields[k]))
-            return fail(ErrorKind::Input, at(at("fields", k), "attraction"),
-                        "has one centre, but a periodic axis would repeat it; remove one of them");
+    for (std::size_t k = 0; k < scene.forces.fields.size(); ++k)
+        if (auto fits = checkField(scene.forces.fields[k], scene.bounds, at("fields", k)); !fits) return fits;
     return {};
 }
 

@@ -33,6 +33,13 @@ double balancedSubstep(const Scene& scene) {
     return acceleration > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / acceleration)) : longest;
 }
 
+// Returns the fewest substeps of a step with which springs and liquids swing no sphere by more than 0.2 rad in a
+// substep. Leapfrog then errs by 0.2 % in the period.
+double substepsForFields(const Scene& scene) {
+    constexpr double mostAngle = 0.2;
+    return std::ceil(highestFieldFrequency(scene) * scene.step / mostAngle);
+}
+
 // Refuses materials so soft that spheres fall through bodies that should support them.
 Result<void> checkYoung(const Scene& scene) {
     if (scene.quality.model != Model::Accurate || !followsHertz(scene)) return {};
@@ -90,10 +97,10 @@ double defaultSubsteps(const Scene& scene) {
     constexpr double slack = 0.01;
     constexpr double coarser = 4;  // `fast` needs fewer substeps by this factor
     if (scene.quality.model == Model::Accurate)
-        return std::max(1.0, std::ceil(scene.step / contactTimeOf(scene).substep));
+        return std::max({1.0, std::ceil(scene.step / contactTimeOf(scene).substep), substepsForFields(scene)});
     double substep = balancedSubstep(scene);
     if (scene.quality.model == Model::Fast) substep *= coarser;
-    return std::max(1.0, std::ceil(scene.step / substep * (1 - slack)));
+    return std::max({1.0, std::ceil(scene.step / substep * (1 - slack)), substepsForFields(scene)});
 }
 
 Result<void> checkModel(const Scene& scene) {
@@ -139,8 +146,11 @@ Result<void> fitSubsteps(Scene& scene) {
         return {};
     }
     const std::string reason =
-        followsHertz(scene) ? "contacts of these materials would take less than 10 substeps then"
-                            : fmt::format("springs so soft would give way by {:.0f} % of a radius", 100 * softest);
+        fewest <= substepsForFields(scene)
+            ? fmt::format("fields swing a sphere at {:.3g} rad/s, and a substep may take at most 0.2 rad",
+                          highestFieldFrequency(scene))
+        : followsHertz(scene) ? "contacts of these materials would take less than 10 substeps then"
+                              : fmt::format("springs so soft would give way by {:.0f} % of a radius", 100 * softest);
     return fail(ErrorKind::Input, field,
                 fmt::format("is {}, but {}; give at least {}", quality.substeps, reason, fewest), Cause::Range,
                 {.least = fewest, .most = most});
@@ -201,16 +211,18 @@ Result<void> checkObstacleSpeeds(const Scene& scene) {
 }
 
 std::uint32_t minSubstepsFor(const Scene& scene, Model model) {
-    if (model != Model::Accurate) return 1;
     double fewest = 0;
-    if (followsHertz(scene)) {
+    if (model != Model::Accurate) {
+        fewest = 1;
+    } else if (followsHertz(scene)) {
         fewest = fewestPerContact * scene.step / contactTimeOf(scene).contact;
     } else {
         Scene soft = withFreeSubsteps(scene, model);
         soft.quality.overlap = softest;
         fewest = scene.step / contactTimeOf(soft).substep;
     }
-    return static_cast<std::uint32_t>(std::clamp<double>(std::ceil(fewest), 1, maxSubsteps));
+    fewest = std::max(std::ceil(fewest), substepsForFields(scene));
+    return static_cast<std::uint32_t>(std::clamp<double>(fewest, 1, maxSubsteps));
 }
 
 Result<std::uint32_t> substepsFor(const Scene& scene, Model model) {

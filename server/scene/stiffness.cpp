@@ -71,10 +71,26 @@ struct Extremes {
     glm::dvec3 fastest{-std::numeric_limits<double>::infinity()};
     double fall = 0;                                              // m
     double potential = -std::numeric_limits<double>::infinity();  // of the fields, where spheres begin, J/kg
+    double blown = 0;                                             // speed that media give to them, m/s
     double volume = 0;                                            // m^3
     double densest = 0;                                           // kg/m^3
     double lightest = std::numeric_limits<double>::infinity();
 };
+
+// Returns the speed (m/s) that the media that move give to a sphere on its way through the bounds, or a higher one.
+double speedInMedia(const Scene& scene, const Body& body) {
+    double fastest = 0;
+    double squared = 0;
+    for (const Field& field : scene.forces.fields) {
+        const auto* const drag = std::get_if<Drag>(&field);
+        if (drag == nullptr) continue;
+        const double speed = glm::length(drag->velocity) + (drag->vortex ? std::abs(drag->vortex->speed) : 0);
+        const double force = 0.5 * drag->density * drag->coefficient * pi * body.radius * body.radius * speed * speed;
+        fastest = std::max(fastest, speed);
+        squared += 2 * force / body.mass * glm::distance(scene.bounds.min, scene.bounds.max);
+    }
+    return std::min(fastest, std::sqrt(squared));
+}
 
 Extremes extremesOf(const Scene& scene) {
     Extremes found;
@@ -90,8 +106,12 @@ Extremes extremesOf(const Scene& scene) {
         found.slowest = glm::min(found.slowest, glm::dvec3(sphere.velocity));
         found.fastest = glm::max(found.fastest, glm::dvec3(sphere.velocity));
         found.fall = std::max(found.fall, glm::dot(sphere.position - scene.bounds.centre(), up) - floor);
-        if (!scene.forces.fields.empty())
-            found.potential = std::max(found.potential, scene.forces.fieldPotentialAt(sphere.position));
+        if (!scene.forces.fields.empty()) {
+            const Body body = bodyOf(scene, sphere);
+            const double highest = scene.forces.highestFieldPotential(sphere.position, body, topOf(scene));
+            found.potential = std::max(found.potential, highest);
+            found.blown = std::max(found.blown, speedInMedia(scene, body));
+        }
         found.volume += weight * 4.0 / 3 * pi * r * r * r;
         const double density = scene.materials[sphere.material].density;
         found.densest = std::max(found.densest, density);
@@ -176,7 +196,7 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     for (const Obstacle& obstacle : scene.obstacles)
         if (obstacle.motion)
             thrown = std::max(thrown, 2 * obstacle.largestSpeed(scene.bounds) + glm::length(obstacle.motion->belt));
-    speed += thrown;
+    speed += thrown + extremes.blown;
     const double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
     const double drop = fieldDrop(scene, extremes);
     if (scene.sphereContacts && mayHaveTwo(scene))

@@ -42,6 +42,8 @@ Result<void> setGravity(scene::Scene& scene, const Set& set) {
                     fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*set.gravity), maxGravity),
                     Cause::Range, {.least = {}, .most = maxGravity});
     scene.forces.gravity = *set.gravity;
+    if (const auto rests = scene::checkLiquids(scene); !rests)
+        return fail(ErrorKind::Refused, "gravity", rests.error().where + " " + rests.error().message);
     return {};
 }
 

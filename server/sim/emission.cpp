@@ -45,7 +45,8 @@ const std::vector<Emission::Birth>& Emission::attempt(const scene::Scene& scene,
             Birth birth{.sphere = one.sphere, .emitter = static_cast<std::uint32_t>(k)};
             const glm::dvec3 place = scene.emitters[k].place(one.number, one.attempts);
             const glm::dvec3 velocity(birth.sphere.velocity);
-            const glm::dvec3 gained = scene.forces.accelerationAt(place) * one.flight;
+            const scene::Body body{static_cast<double>(one.sphere.radius), scene.emitters[k].massOf(one.sphere)};
+            const glm::dvec3 gained = scene.forces.accelerationAt(place, body) * one.flight;
             birth.sphere.position = place + (velocity + 0.5 * gained) * one.flight;
             birth.sphere.velocity = glm::vec3(velocity + gained);
             births_.push_back(birth);

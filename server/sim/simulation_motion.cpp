@@ -33,7 +33,8 @@ double largestMotion(const scene::Scene& scene, const State& state, double h) {
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const double speed = glm::length(glm::dvec3(state.velocity[id]));
         const glm::dvec3 place = scene.bounds.centre() + positionOf(state, id);
-        const double acceleration = glm::length(scene.forces.accelerationAt(place));
+        const scene::Body body{.radius = radiusOf(state, id), .mass = massOf(state, id)};
+        const double acceleration = glm::length(scene.forces.accelerationAt(place, body));
         const double lookAhead = 2 * scene.step * (speed + 2 * scene.step * acceleration);
         if (beyond(scene.bounds, positionOf(state, id)) > lookAhead + radiusOf(state, id)) continue;
         farthest = std::max(farthest, speed * h / static_cast<double>(state.position[id].w));

@@ -102,11 +102,11 @@ glm::dvec3 Simulation::forceOf(const PullSpring& spring, std::uint32_t rank) {
     const glm::dvec4 velocity(pipeline_->velocityOf(handle));
     const glm::dvec3 place = glm::dvec3(pipeline_->positionOf(handle)) + scene_.bounds.centre();
     const double substep = scene_.step / substeps_;
-    const glm::dvec3 mean = glm::dvec3(velocity) + scene_.forces.accelerationAt(place) * (0.5 * substep);
+    const scene::Body body = scene::bodyOf(scene_, scene_.spheres[rank]);
+    const glm::dvec3 mean = glm::dvec3(velocity) + scene_.forces.accelerationAt(place, body) * (0.5 * substep);
     const glm::dvec3 path = scene::separation(spring.point, place, scene_.bounds.periods());
     const double share = 1 / ((1 + substep * spring.rate) * (1 + substep * spring.rate));
-    const double radius = static_cast<double>(scene_.spheres[rank].radius);
-    const glm::dvec3 given = limited(path * (spring.rate * spring.rate * share), pullLimits(radius).acceleration);
+    const glm::dvec3 given = limited(path * (spring.rate * spring.rate * share), pullLimits(body.radius).acceleration);
     return (given - mean * ((1 - share) / substep)) / std::abs(velocity.w);
 }
 

@@ -72,7 +72,7 @@ struct Statistics {
     // Potential energy of gravity along periodic axes, at unwrapped positions (J). It is no part of potentialEnergy,
     // because it has no lowest value. Its fall is the work of this gravity.
     double unboundedEnergy = 0;
-    double fieldEnergy = 0;  // the part of the potential energy in fields, zero far away
+    double fieldEnergy = 0;  // the part of the potential energy in fields
     double pushWork = 0;  // work of the pushes of `fast` out of walls against gravity and fields, since the last upload
     glm::dvec3 momentum{};
     glm::dvec3 angularMomentum{};  // N m s, about the bounds' centre; not conserved with periodic axes

@@ -4,6 +4,10 @@
 #define MOST_FIELDS 8u
 #define MOST_SINKS 8u
 
+// See shared/fields.h.
+#define BOTTOMLESS 1.0e30f
+#define IN_BOX -1.0f
+
 // The uniform block, std140: vectors first, then scalars in fours.
 struct Parameters {
     vec4 gravity;        // xyz in m/s^2; w = 0
@@ -13,6 +17,10 @@ struct Parameters {
     vec4 stiffness;      // ContactParams.stiffness of these
     vec4 fieldPlace[MOST_FIELDS];   // of each field: see shared/fields.h
     vec4 fieldNumbers[MOST_FIELDS];
+    vec4 fieldVector[MOST_FIELDS];
+    vec4 fieldSpin[MOST_FIELDS];
+    vec4 fieldLow[MOST_FIELDS];
+    vec4 fieldHigh[MOST_FIELDS];
     vec4 sinkMin[MOST_SINKS];       // m: corners of each sink; w of the first: their number
     vec4 sinkMax[MOST_SINKS];
     vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, sample threshold, 0; from fine to coarse

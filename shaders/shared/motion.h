@@ -1,4 +1,4 @@
-// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters`, `obstacles` and
+// Checks the motion of a sphere in a substep. The includer binds `velocity`, `listReference`, `counters`, `obstacles` and
 // `obstacleLists`. It has included shared/separation.h, shared/shapes.h, shared/moving.h, shared/mesh_room.h,
 // shared/fields.h, shared/outside.h, shared/drift.h, shared/falling_frame.h and shared/ask_for_lists.h.
 
@@ -62,8 +62,8 @@ bool mayMeetSurface(vec3 p) {
 }
 
 // Returns true if a sphere outside may soon meet a wall, an obstacle or a sphere inside the bounds.
-bool mayCollideSoon(vec3 p, vec3 v, float radius) {
-    flightAcceleration = accelerationAt(p);
+bool mayCollideSoon(vec3 p, vec3 v, float radius, float inverseOfMass) {
+    flightAcceleration = accelerationAt(p, radius, inverseOfMass);
     p = wrapped(p);
     flightVelocity = v;
     ownRadius = radius;
@@ -80,11 +80,11 @@ bool mayCollideSoon(vec3 p, vec3 v, float radius) {
 
 // The motion of the sphere in a substep (m), as far as it may carry the sphere past an object that it should hit.
 // `reference` is its row of `listReference`.
-float riskyMotion(vec4 sphere, vec3 v, vec4 reference) {
+float riskyMotion(vec4 sphere, float inverseOfMass, vec3 v, vec4 reference) {
     float h = params.substep;
     float motion = sqrt(dot3(v, v) * h * h);
     vec3 p = vec3(sphere);
-    if (!(beyond(p) > 0.0f) || mayCollideSoon(p, v, radiusOf(sphere))) return motion;
+    if (!(beyond(p) > 0.0f) || mayCollideSoon(p, v, radiusOf(sphere), inverseOfMass)) return motion;
     if (!HAS(CONTACTS) || roomOf(reference) >= UNLIMITED_ROOM || counters[COUNTER_REBUILDS] == 0u) return 0.0f;
     // Among spheres outside, only its motion relative to their frame counts.
     vec3 drift = v - frameVelocity();
@@ -125,7 +125,8 @@ void checkMotion(uint sphere, vec4 x, vec3 v, vec3 to) {
     vec4 reference = HAS(CONTACTS) ? listReference[sphere] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
     float safe = SAFE_MOTION * radiusOf(x);
     if (dot3(v, v) * params.substep * params.substep > safe * safe) {
-        float motion = riskyMotion(withXyz(x, to), v, reference);
+        float inverseOfMass = HAS(FIELDS) ? inverseMassOf(velocity[sphere]) : 0.0f;
+        float motion = riskyMotion(withXyz(x, to), inverseOfMass, v, reference);
         if (motion > safe) atomicMax(counters[COUNTER_LARGEST_MOTION], floatBitsToUint(motion * SAFE_MOTION / safe));
     }
     if (!HAS(CONTACTS)) return;

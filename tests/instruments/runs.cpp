@@ -212,6 +212,7 @@ std::vector<Trial> mixtureTrials() {
         const double seconds = model == scene::Model::Accurate ? 0.01 : 0.05;
         add("mixture", model, seconds, physics::mixture);
         add("in_fields", model, seconds, physics::mixtureInFields);
+        add("in_media", model, seconds, physics::mixtureInMedia);
         add("among_meshes", model, seconds, physics::mixtureAmongMeshes);
         add("among_obstacles", model, seconds, physics::mixtureAmongObstacles);
         add("among_moving_obstacles", model, seconds, physics::mixtureAmongMovingObstacles);
@@ -238,7 +239,7 @@ std::vector<Trial> coveringTrials() {
             std::initializer_list<const char*>{"commands_fast", "commands_balanced", "commands_accurate",
                                                "moves_balanced", "open_balanced", "crowd_balanced",
                                                "periodic_sizes_balanced", "among_moving_obstacles_balanced",
-                                               "in_fields_accurate", "encoder"},
+                                               "in_fields_accurate", "in_media_balanced", "encoder"},
             [&](const char* name) { return trial.name == name; });
     });
     return trials;

@@ -105,6 +105,10 @@ TEST_P(Bits, OfAMixtureInFieldsAreTheSameOnAllDevices) {
     expectTheSameBits(mixtureInFields(GetParam()), seconds(GetParam()));
 }
 
+TEST_P(Bits, OfAMixtureInMediaAreTheSameOnAllDevices) {
+    expectTheSameBits(mixtureInMedia(GetParam()), seconds(GetParam()));
+}
+
 TEST_P(Bits, OfAMixtureAmongMeshesAreTheSameOnAllDevices) {
     expectTheSameBits(mixtureAmongMeshes(GetParam()), seconds(GetParam()));
 }

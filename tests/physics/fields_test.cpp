@@ -9,65 +9,13 @@
 #include <glm/geometric.hpp>
 
 #include "diagnostics/energy_watch.h"
+#include "field_support.h"
 #include "scene/quality.h"
-#include "scene/random.h"
-#include "support.h"
 
 namespace spherule::physics {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double radius = 0.05;  // m
-constexpr scene::Model models[] = {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate};
-
-glm::dvec3 randomDirection(scene::Random& random) {
-    return glm::normalize(glm::dvec3(random.normal(), random.normal(), random.normal()));
-}
-
-// One sphere in open space, with steps of one substep of 1/480 s.
-scene::Scene oneSphere(scene::Model model, glm::dvec3 place, glm::dvec3 velocity) {
-    scene::Scene scene = fineStepSpace(20);
-    scene.quality.model = model;
-    scene::Sphere sphere;
-    sphere.radius = static_cast<float>(radius);
-    sphere.position = place;
-    sphere.velocity = glm::vec3(velocity);
-    scene.spheres.push_back(sphere);
-    return scene;
-}
-
-// The acceleration by a scene's forces (m/s^2), for a sphere of 5 cm and 1000 kg/m^3.
-glm::dvec3 accelerationOf(const scene::Forces& forces, const glm::dvec3& x, const glm::dvec3& v) {
-    glm::dvec3 sum = forces.accelerationAt(x);
-    for (const scene::Field& field : forces.fields)
-        if (const auto* const drag = std::get_if<scene::Drag>(&field))
-            sum -= v * (glm::length(v) * 0.5 * drag->density * drag->coefficient * pi * radius * radius /
-                        (4.0 / 3 * pi * radius * radius * radius * 1000));
-    return sum;
-}
-
-struct Motion {
-    glm::dvec3 x;
-    glm::dvec3 v;
-};
-
-// The classical Runge-Kutta method of fourth order, with steps of 50 us.
-Motion integrated(const scene::Forces& forces, Motion from, double seconds) {
-    constexpr double h = 5e-5;
-    const auto slope = [&](const Motion& at) { return Motion{at.v, accelerationOf(forces, at.x, at.v)}; };
-    const auto moved = [](const Motion& at, const Motion& by, double time) {
-        return Motion{at.x + by.x * time, at.v + by.v * time};
-    };
-    for (long k = 0; k < std::lround(seconds / h); ++k) {
-        const Motion a = slope(from);
-        const Motion b = slope(moved(from, a, h / 2));
-        const Motion c = slope(moved(from, b, h / 2));
-        const Motion d = slope(moved(from, c, h));
-        from.x += h / 6 * (a.x + 2.0 * b.x + 2.0 * c.x + d.x);
-        from.v += h / 6 * (a.v + 2.0 * b.v + 2.0 * c.v + d.v);
-    }
-    return from;
-}
 
 class Fields : public testing::TestWithParam<scene::Model> {};
 
@@ -180,7 +128,7 @@ TEST_P(Fields, ScenesWithoutGravityTakeCommands) {
     scene.forces = {.fields = {scene::Drag{.density = 10}, scene::Attraction{{0, 0, -3}, 100, 0.2}}};
     for (int k = 0; k < 216; ++k) {
         scene::Sphere sphere;
-        sphere.radius = static_cast<float>(radius);
+        sphere.radius = static_cast<float>(fieldRadius);
         sphere.position = 0.15 * (glm::dvec3(k % 6, k / 6 % 6, k / 36) - 2.5);
         scene.spheres.push_back(sphere);
     }
@@ -238,7 +186,7 @@ TEST(FieldsInHeaps, StiffnessBearsTheMeetingAtACentre) {
     EXPECT_LT(deepest, 0.15);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Fields, testing::ValuesIn(models),
+INSTANTIATE_TEST_SUITE_P(Of, Fields, testing::ValuesIn(fieldModels),
                          [](const auto& parameter) { return std::string(scene::nameOf(parameter.param)); });
 
 // 343 spheres fall to a centre and come to rest around it. No gain of energy is reported, and a dense ball remains. The
@@ -254,7 +202,7 @@ TEST_P(AttractedHeap, ComesToRestInABall) {
     scene::Random random(GetParam());
     for (int k = 0; k < 343; ++k) {
         scene::Sphere sphere;
-        sphere.radius = static_cast<float>(radius);
+        sphere.radius = static_cast<float>(fieldRadius);
         sphere.position = 0.125 * (glm::dvec3(k % 7, k / 7 % 7, k / 49) - 3.0) + 0.01 * randomDirection(random);
         scene.spheres.push_back(sphere);
     }

@@ -72,6 +72,22 @@ scene::Scene mixtureInFields(scene::Model model) {
     return scene;
 }
 
+scene::Scene mixtureInMedia(scene::Model model) {
+    scene::Scene scene = mixture(model);
+    const glm::dvec3 centre(0.1, -0.1, 0);
+    scene.forces.fields = {
+        scene::Drag{.density = 80, .velocity = {3, 1, 2}, .region = scene::Box{{-0.3, -0.4, -0.4}, {0.4, 0.2, 0.1}}},
+        scene::Drag{.density = 50, .vortex = scene::Vortex{centre, glm::normalize(glm::dvec3(1, 0, 2)), 4, 0.15}},
+        scene::Buoyancy{.density = 1500, .surface = glm::dvec3(0, 0, -0.2), .region = scene::BallRegion{centre, 0.4}},
+        scene::Buoyancy{.density = 2},
+        scene::Spring{.centre = centre,
+                      .stiffness = 0.5,
+                      .damping = 0.02,
+                      .region = scene::CylinderRegion{{0.3, 0.3, -0.3}, {-0.3, -0.2, 0.3}, 0.25}},
+        scene::Attraction{.centre = centre, .strength = 0.3, .softening = 0.1}};
+    return scene;
+}
+
 scene::Scene mixtureAmongMeshes(scene::Model model) {
     scene::Scene scene = mixture(model);
     scene.obstacles.clear();

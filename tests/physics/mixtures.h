@@ -17,6 +17,9 @@ scene::Scene periodicMixture(scene::Model model, double ratio);
 // The mixture in fields, with fixed spheres.
 scene::Scene mixtureInFields(scene::Model model);
 
+// The mixture in wind, in a vortex, in a liquid with a surface, and on a spring, in regions of each shape.
+scene::Scene mixtureInMedia(scene::Model model);
+
 // In a hollow box of triangles, above a bumpy ball, a blade and a sheet, all of triangles.
 scene::Scene mixtureAmongMeshes(scene::Model model);
 

@@ -29,7 +29,8 @@ constexpr const char* full = R"({
   ],
   "pairs": [{"a": "glass", "b": "steel", "restitution": 0.65}],
   "obstacles": [{"plane": {"point": [102, 4, 0], "normal": [0, -0.2, 1]}, "material": "steel", "colour": "#102030"}],
-  "fields": [{"drag": {"density": 2}}],
+  "fields": [{"drag": {"density": 2, "velocity": [0.1, 0, 0], "vortex":
+    {"centre": [0, 2, 1], "axis": [1, 0, 0], "speed": -0.2, "core": 0.5}}, "inBox": {"min": [0, 1, 0], "max": [200, 3, 2]}}],
   "sinks": [{"region": {"min": [100, 0, -1], "max": [100.5, 0.5, 0.2]}}],
   "sleep": {"speed": 0.03, "time": 0.7},
   "quality": {"model": "BALANCED", "substeps": 6, "auto": {"overlap": 0.01}},
@@ -50,7 +51,10 @@ std::string withoutPeriodicAxis() {
     };
     replace(R"("periodic": ["X"], )", "");
     replace(R"("fields": [)",
-            R"("fields": [{"attraction": {"centre": [102, 2, 1], "strength": 0.5, "softening": 0.2}}, )");
+            R"("fields": [{"attraction": {"centre": [102, 2, 1], "strength": 0.5, "softening": 0.2}},
+      {"buoyancy": {"density": 300, "surface": [0, 0, 1]}, "inSphere": {"centre": [102, 2, 1], "radius": 1}},
+      {"spring": {"centre": [101, 2, 1], "stiffness": 2, "damping": 0.1},
+       "inCylinder": {"from": [103, 3, 0], "to": [103, 3, 3], "radius": 1}}, )");
     replace(R"("obstacles": [)",
             R"("obstacles": [{"box": {"min": [101, 1, 0], "max": [102, 2, 0.3]}, "colour": "#0a0b0c"},
       {"cylinder": {"from": [103, 3, 0], "to": [103, 3, 1], "radius": 0.2}, "material": "steel"}, )");
@@ -126,6 +130,12 @@ void SaveScene::checkRoundTrip(const std::string& json) {
         EXPECT_EQ(after.obstacles[k].material, before.obstacles[k].material);
     }
     EXPECT_EQ(after.forces.fields.size(), before.forces.fields.size());
+    for (double x = 100.5; x < 104; x += 0.5) {
+        const scene::Body body{.radius = 0.1, .mass = 3};
+        const glm::dvec3 place(x, x - 100, 0.9);
+        EXPECT_EQ(after.forces.accelerationAt(place, body), before.forces.accelerationAt(place, body));
+        EXPECT_EQ(after.forces.dragAt(place, {1, 2, 3}, body), before.forces.dragAt(place, {1, 2, 3}, body));
+    }
     EXPECT_EQ(after.sleep.time, before.sleep.time);
     EXPECT_EQ(after.materials[1].rollingResistance, before.materials[1].rollingResistance);
     EXPECT_EQ(after.pairs[0].restitution, before.pairs[0].restitution);

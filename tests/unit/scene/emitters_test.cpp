@@ -73,7 +73,7 @@ TEST(Emitters, AreRefusedWithTheFieldAndTheReason) {
         start + "cylinder.to: is the same point as from");
     EXPECT_EQ(refusalOf(emitter(R"("cylinder": {"from": [0, 0, 0], "to": [0, 0, 1], "radius": 1, "open": true}, )" +
                                 std::string(flow))),
-              start + "cylinder.open: is true; only obstacles may be open");
+              start + "cylinder.open: is true; a region is the inside of a solid shape: leave it out");
 }
 
 TEST(Emitters, AreLimitedInNumberAndFlow) {

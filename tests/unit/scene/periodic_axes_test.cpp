@@ -62,6 +62,31 @@ TEST(ScenePeriodicAxes, HaveNoAttraction) {
               "fields[0].attraction: has one centre, but a periodic axis would repeat it; remove one of them");
 }
 
+TEST(ScenePeriodicAxes, HaveFieldsThatAreTheSameAlongThem) {
+    const auto field = [](const std::string& text) {
+        return refusal(R"("periodic": ["X"])", R"(, "fields": [{)" + text + "}]");
+    };
+    EXPECT_EQ(field(R"("spring": {"centre": [1, 0, 1], "stiffness": 1})"),
+              "fields[0].spring: has one centre, but a periodic axis would repeat it; remove one of them");
+    EXPECT_EQ(field(R"("drag": {"velocity": [1, 2, 3]})"), "accepted");
+    EXPECT_EQ(field(R"("drag": {"vortex": {"centre": [0, 0, 0], "axis": [-3, 0, 0], "core": 1}})"), "accepted");
+    EXPECT_EQ(field(R"("drag": {"vortex": {"centre": [0, 0, 0], "axis": [3, 1, 0], "core": 1}})"),
+              "fields[0].drag.vortex: has one axis, but a periodic axis would repeat it; turn the vortex along the "
+              "periodic axis, or remove one of them");
+    const std::string reason =
+        "fields[0]: has a region that ends along the periodic axis X; with periodic axes, the region must be a box "
+        "that "
+        "spans the bounds along them";
+    EXPECT_EQ(field(R"("drag": {}, "inSphere": {"centre": [0, 0, 0], "radius": 100})"), reason);
+    EXPECT_EQ(field(R"("drag": {}, "inBox": {"min": [0.1, 0, 0], "max": [9, 1, 1]})"), reason);
+    EXPECT_EQ(field(R"("drag": {}, "inBox": {"min": [-9, 0, 0], "max": [9, 1, 1]})"), "accepted");
+    EXPECT_EQ(field(R"("buoyancy": {})"), "accepted");
+    EXPECT_EQ(
+        refusal(R"("periodic": ["X"])", R"(, "gravity": [1, 0, -9], "fields": [{"buoyancy": {}}])"),
+        "fields[0].buoyancy: is of a liquid at rest, but gravity has a part along the periodic axis X, along which "
+        "the liquid would flow; remove one of them");
+}
+
 TEST(ScenePeriodicAxes, ContainCentresOnly) {
     const auto ball = [](const std::string& x) {
         return R"(, "groups": [{"list": {"spheres": [{"position": [)" + x + R"(, 0.5, 1], "radius": 0.1}]}}])";

@@ -51,7 +51,7 @@ TEST(SceneRefusals, NumbersFitTheSimulation) {
 }
 
 TEST(SceneRefusals, FieldsHaveOneKindAndAreBounded) {
-    EXPECT_EQ(refusalOf(R"("fields": [{}])"), "fields[0]: has no kind, must be drag or attraction");
+    EXPECT_EQ(refusalOf(R"("fields": [{}])"), "fields[0]: has no kind, must be drag, attraction, buoyancy or spring");
     EXPECT_EQ(refusalOf(R"("fields": [{"drag": {}}, {"drag": {"density": -1}}])"),
               "fields[1].drag.density: is -1, must be 0 to 100000 kg/m^3");
     EXPECT_EQ(refusalOf(R"("fields": [{"attraction": {"strength": 1, "softening": 1}}])"),
@@ -74,6 +74,81 @@ TEST(SceneRefusals, FieldsAreRead) {
     EXPECT_EQ(std::get<Drag>(scene.forces.fields[0]).coefficient, 0.47);
     EXPECT_EQ(std::get<Attraction>(scene.forces.fields[1]).centre, glm::dvec3(1, 2, 3));
     EXPECT_EQ(std::get<Attraction>(scene.forces.fields[1]).strength, -4);
+}
+
+// Returns the scene with one field, which has this content.
+std::string refusalOfField(const std::string& field) {
+    return refusalOf("\"fields\": [{" + field + "}]");
+}
+
+TEST(SceneRefusals, MediaAreBounded) {
+    EXPECT_EQ(refusalOfField(R"("drag": {"velocity": [1, 2]})"),
+              "fields[0].drag.velocity: has 2 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusalOfField(R"("drag": {"velocity": [0, 0, 2e5]})"),
+              "fields[0].drag.velocity: is 200000 m/s long, at most 100000 is allowed");
+    EXPECT_EQ(refusalOfField(R"("drag": {"vortex": {"axis": [0, 0, 1], "core": 1}})"),
+              "fields[0].drag.vortex.centre: has 0 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusalOfField(R"("drag": {"vortex": {"centre": [0, 0, 1], "axis": [0, 0, 0], "core": 1}})"),
+              "fields[0].drag.vortex.axis: is zero, must have a direction");
+    EXPECT_EQ(refusalOfField(R"("drag": {"vortex": {"centre": [0, 0, 1], "axis": [0, 0, 1], "speed": 1}})"),
+              "fields[0].drag.vortex.core: is 0, must be 1e-06 to 1000000000 m");
+    EXPECT_EQ(
+        refusalOfField(R"("drag": {"vortex": {"centre": [0, 0, 1], "axis": [0, 0, 1], "speed": 1e6, "core": 1}})"),
+        "fields[0].drag.vortex.speed: is 1000000, must be -100000 to 100000 m/s");
+}
+
+TEST(SceneRefusals, LiquidsAndSpringsAreBounded) {
+    EXPECT_EQ(refusalOfField(R"("buoyancy": {"density": -1})"),
+              "fields[0].buoyancy.density: is -1, must be 0 to 100000 kg/m^3");
+    EXPECT_EQ(refusalOfField(R"("buoyancy": {"surface": [1]})"),
+              "fields[0].buoyancy.surface: has 1 number, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(R"("gravity": [0, 0, 0], "fields": [{"drag": {}}, {"buoyancy": {}}])"),
+              "fields[1].buoyancy: needs gravity, which is zero; give the scene a gravity or remove the buoyancy");
+    EXPECT_EQ(refusalOfField(R"("spring": {"stiffness": 1})"),
+              "fields[0].spring.centre: has 0 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusalOfField(R"("spring": {"centre": [0, 0, 0], "stiffness": -1})"),
+              "fields[0].spring.stiffness: is -1, must be 0 to 1000000000 N/m");
+    EXPECT_EQ(refusalOfField(R"("spring": {"centre": [0, 0, 0], "damping": -1})"),
+              "fields[0].spring.damping: is -1, must be 0 to 1000000000 N s/m");
+}
+
+TEST(SceneRefusals, RegionsAreTheInsideOfSolids) {
+    const std::string hollow = ": is true; a region is the inside of a solid shape: leave it out";
+    EXPECT_EQ(refusalOfField(R"("drag": {}, "inBox": {"min": [0, 0, 0], "max": [1, 1, 1], "hollow": true})"),
+              "fields[0].inBox.hollow" + hollow);
+    EXPECT_EQ(refusalOfField(R"("drag": {}, "inSphere": {"centre": [0, 0, 0], "radius": 1, "hollow": true})"),
+              "fields[0].inSphere.hollow" + hollow);
+    EXPECT_EQ(
+        refusalOfField(R"("drag": {}, "inCylinder": {"from": [0,0,0], "to": [0,0,1], "radius": 1, "open": true})"),
+        "fields[0].inCylinder.open" + hollow);
+    EXPECT_EQ(refusalOfField(R"("drag": {}, "inBox": {"min": [0, 0, 0], "max": [1, 0, 1]})"),
+              "fields[0].inBox.max[1]: is 0, must be above min, which is 0");
+    EXPECT_EQ(refusalOfField(R"("drag": {}, "inSphere": {"centre": [0, 0, 0]})"),
+              "fields[0].inSphere.radius: is 0, must be positive");
+    EXPECT_EQ(refusalOfField(R"("drag": {}, "inCylinder": {"from": [0, 0, 0], "to": [0, 0, 0], "radius": 1})"),
+              "fields[0].inCylinder.to: is (0, 0, 0), must differ from `from`");
+}
+
+TEST(SceneRefusals, KindsAndRegionsOfFieldsAreRead) {
+    const Scene scene = sceneWith(R"("fields": [
+        {"drag": {"velocity": [1, 2, 3], "vortex": {"centre": [0, 1, 0], "axis": [0, 0, -2], "speed": -4, "core": 5}},
+         "inCylinder": {"from": [0, 0, 0], "to": [0, 0, 2], "radius": 3}},
+        {"buoyancy": {"surface": [0, 0, 0.5]}, "inSphere": {"centre": [1, 0, 0], "radius": 2}}, {"buoyancy": {}},
+        {"spring": {"centre": [1, 2, 3], "stiffness": 4, "damping": 5}, "inBox": {"min": [0,0,0], "max": [1,2,3]}}])");
+    const auto& drag = std::get<Drag>(scene.forces.fields[0]);
+    EXPECT_EQ(drag.velocity, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(drag.vortex->axis, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(drag.vortex->speed, -4);
+    EXPECT_EQ(drag.vortex->core, 5);
+    EXPECT_EQ(std::get<CylinderRegion>(*drag.region).radius, 3);
+    EXPECT_EQ(*std::get<Buoyancy>(scene.forces.fields[1]).surface, glm::dvec3(0, 0, 0.5));
+    EXPECT_EQ(std::get<BallRegion>(*regionOf(scene.forces.fields[1])).centre, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(std::get<Buoyancy>(scene.forces.fields[2]).density, 1000);
+    EXPECT_FALSE(std::get<Buoyancy>(scene.forces.fields[2]).surface);
+    EXPECT_FALSE(regionOf(scene.forces.fields[2]));
+    EXPECT_EQ(std::get<Spring>(scene.forces.fields[3]).stiffness, 4);
+    EXPECT_EQ(std::get<Spring>(scene.forces.fields[3]).damping, 5);
+    EXPECT_EQ(std::get<Box>(*regionOf(scene.forces.fields[3])).max, glm::dvec3(1, 2, 3));
 }
 
 TEST(SceneRefusals, NamesAreLimited) {

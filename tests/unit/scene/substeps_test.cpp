@@ -112,6 +112,37 @@ TEST(SceneSubsteps, HaveAMinimumThatLimitsOverlaps) {
     EXPECT_EQ(softest.quality.substeps, fewest);
 }
 
+// omega^2 is stiffness over mass, and for liquids 3/4 g / r times the ratio of the densities: 0.2 rad in a substep.
+TEST(SceneSubsteps, FollowTheFrequencyOfFields) {
+    constexpr double mass = 4.0 / 3 * pi * 0.05 * 0.05 * 0.05 * 1000;
+    for (const Model model : {Model::Fast, Model::Balanced, Model::Accurate}) {
+        Scene scene = sceneOf(R"("overlap": 0.5)");
+        scene.quality.model = model;
+        scene.forces.fields = {Spring{.stiffness = 300 * 300 * mass, .damping = 1}, Drag{}};
+        EXPECT_GE(minSubstepsFor(scene, model), 25U);
+        EXPECT_EQ(refusalBy(scene), "accepted");
+        EXPECT_GE(scene.quality.substeps, 25U);
+        scene.quality.substepsFixed = true;
+        scene.quality.substeps = 24;
+        if (model == Model::Accurate) continue;
+        EXPECT_EQ(refusalBy(scene),
+                  "quality.substeps: is 24, but fields swing a sphere at 300 rad/s, and a substep may take at most 0.2 "
+                  "rad; give at least 25");
+        scene.forces.fields = {Buoyancy{.density = 600 * 1000, .surface = glm::dvec3(0)}};
+        EXPECT_EQ(minSubstepsFor(scene, model), std::ceil(std::sqrt(0.75 * 600 * 9.81 / 0.05) / 60 / 0.2));
+    }
+}
+
+// Wind presses spheres at rest as an acceleration does.
+TEST(SceneSubsteps, FollowTheWind) {
+    Scene scene = sceneOf("");
+    const double still = defaultSubsteps(scene);
+    scene.forces.fields = {Drag{}};
+    EXPECT_EQ(defaultSubsteps(scene), still);
+    scene.forces.fields = {Drag{.velocity = {200, 0, 0}}};
+    EXPECT_GT(defaultSubsteps(scene), 2 * still);
+}
+
 TEST(SceneSubsteps, FixedSubstepsDetermineTheStiffness) {
     for (const std::uint32_t substeps : {100U, 400U, 1000U}) {
         const Scene scene = sceneOf(accurate, "", {.substeps = substeps});

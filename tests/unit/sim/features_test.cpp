@@ -87,6 +87,25 @@ TEST(SimFeatures, FieldsRequireAField) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.add_fields()->mutable_drag(); }), bareWith({Fields}));
 }
 
+TEST(SimFeatures, KindsOfFieldsAreFeaturesOfTheirOwn) {
+    const auto with = [](const std::string& field) {
+        const v1::Scene more = parsed(R"({"gravity": [0, 0, -1], "fields": [{)" + field + "}]}");
+        return featuresAfter([&](v1::Scene& s) {
+            s.clear_gravity();
+            s.MergeFrom(more);
+        });
+    };
+    EXPECT_EQ(with(R"("attraction": {"centre": [0, 0, 0], "softening": 1})"), bareWith({Gravity, Fields}));
+    EXPECT_EQ(with(R"("drag": {"velocity": [0, 0, 0]})"), bareWith({Gravity, Fields}));
+    EXPECT_EQ(with(R"("drag": {"velocity": [1, 0, 0]})"), bareWith({Gravity, Fields, Flows}));
+    EXPECT_EQ(with(R"("drag": {"vortex": {"centre": [0, 0, 0], "axis": [0, 0, 1], "core": 1}})"),
+              bareWith({Gravity, Fields, Flows}));
+    EXPECT_EQ(with(R"("buoyancy": {})"), bareWith({Gravity, Fields, Buoyancy}));
+    EXPECT_EQ(with(R"("spring": {"centre": [0, 0, 0]})"), bareWith({Gravity, Fields, Springs}));
+    EXPECT_EQ(with(R"("drag": {}, "inSphere": {"centre": [0, 0, 0], "radius": 1})"),
+              bareWith({Gravity, Fields, Regions}));
+}
+
 TEST(SimFeatures, RadiiRequireDifferentRadii) {
     EXPECT_EQ(
         featuresAfter([](v1::Scene& s) { s.mutable_groups(0)->mutable_list()->mutable_spheres(1)->set_radius(0.2); }),

@@ -115,7 +115,7 @@ function motion(s: Statistics): Figure[] {
       id: "potential",
       name: "Potential energy",
       value: joules(s.potentialEnergy),
-      about: "Energy in gravity, above the floor of the bounds, and in attractions. A periodic axis has none",
+      about: "Energy in gravity, above the floor of the bounds, and in fields. A periodic axis has none",
     },
     { id: "momentum", name: "Momentum, N s", value: vector(s.momentum), about: "Sum over all spheres" },
     { id: "speed-rms", name: "Speed, rms", value: `${figure(s.speedRms)} m/s`, about: "Root mean square" },
