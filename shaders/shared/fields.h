@@ -121,25 +121,28 @@ ANY_REAL3 accelerationOnPath(ANY_REAL3 gravity, ANY_REAL3 x, ANY_REAL3 v, ANY_RE
 // velocity becomes a mean of its value without them and of the velocities of the media, however long the substep is. The
 // terminal velocity, where their forces balance `a`, is exact.
 ANY_REAL3 withDrag(ANY_REAL3 a, ANY_REAL3 x, ANY_REAL3 v, ANY_REAL radius, ANY_REAL inverseOfMass) {
-    precise ANY_REAL perStrength = radius * radius * inverseOfMass;
-    precise ANY_REAL speed = sqrt(dot3(v, v));
-    precise ANY_REAL rate = perStrength * 0.0f;
-    precise ANY_REAL3 mean = a;
-    for (uint k = 0u; k < MOST_FIELDS && kindOfField(k) != NO_FIELD; ++k) {
-        if (kindOfField(k) == FIELD_DRAG) {
-            precise ANY_REAL3 wind = -v;
-            precise ANY_REAL own = perStrength * strengthOfField(k);
-            if (HAS(FLOWS)) wind = windOn(k, middleOfPath(x, v), v);
-            own = own * (HAS(FLOWS) ? sqrt(dot3(wind, wind)) : speed);
-            if (HAS(REGIONS)) own = own * shareOfField(k, middleOfPath(x, v));
-            rate = rate + own;
-            mean = mean + wind * own;
-        }
-        if (HAS(SPRINGS) && kindOfField(k) == FIELD_SPRING) {
-            precise ANY_REAL own = inverseOfMass * params.fieldNumbers[k].x;
-            if (HAS(REGIONS)) own = own * shareOfField(k, middleOfPath(x, v));
-            rate = rate + own;
-            mean = mean - v * own;
+    bool each = HAS(FLOWS) || HAS(REGIONS);  // else all media act alike
+    float drag = 0.0f;
+    for (uint k = 0u; k < MOST_FIELDS && kindOfField(k) != NO_FIELD; ++k)
+        if (!each && kindOfField(k) == FIELD_DRAG) drag = drag + strengthOfField(k);
+    precise ANY_REAL rate = sqrt(dot3(v, v)) * (radius * radius * inverseOfMass * drag);
+    precise ANY_REAL3 mean = a - v * rate;
+    if (each || HAS(SPRINGS)) {
+        for (uint k = 0u; k < MOST_FIELDS && kindOfField(k) != NO_FIELD; ++k) {
+            if (each && kindOfField(k) == FIELD_DRAG) {
+                precise ANY_REAL3 wind = -v;
+                if (HAS(FLOWS)) wind = windOn(k, middleOfPath(x, v), v);
+                precise ANY_REAL own = sqrt(dot3(wind, wind)) * (radius * radius * inverseOfMass * strengthOfField(k));
+                if (HAS(REGIONS)) own = own * shareOfField(k, middleOfPath(x, v));
+                rate = rate + own;
+                mean = mean + wind * own;
+            }
+            if (HAS(SPRINGS) && kindOfField(k) == FIELD_SPRING) {
+                precise ANY_REAL own = inverseOfMass * params.fieldNumbers[k].x;
+                if (HAS(REGIONS)) own = own * shareOfField(k, middleOfPath(x, v));
+                rate = rate + own;
+                mean = mean - v * own;
+            }
         }
     }
     precise ANY_REAL share = 1.0f / (1.0f + rate * params.substep);
