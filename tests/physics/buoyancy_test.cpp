@@ -134,6 +134,23 @@ TEST_P(Liquids, StatisticsShowTheWorkAgainstBuoyancy) {
     }
 }
 
+// A command turns gravity: the surface turns about its point, and the sphere rises to it from another side.
+TEST_P(Liquids, SurfacesFollowGravity) {
+    scene::Scene scene = floating(GetParam(), 2, {0, 0, -9}, {}, -0.2);
+    scene.forces.fields.emplace_back(scene::Spring{.damping = 5});
+    scene.spheres[0].position = {-0.3, 0, 0.2};
+    scene.quality.substepsFixed = false;
+    const auto simulation = simulate(scene);
+    ASSERT_TRUE(simulation->apply(sim::Set{.gravity = glm::dvec3(-9, 0, 0)}));
+    run(*simulation, 3);
+    EXPECT_LT(glm::distance(placeOf(*simulation), glm::dvec3(0, 0, 0.2)), 2e-3 * fieldRadius);
+    const auto none = simulation->apply(sim::Set{.gravity = glm::dvec3(0)});
+    ASSERT_FALSE(none);
+    EXPECT_EQ(
+        none.error().text(),
+        "gravity: fields[0].buoyancy needs gravity, which is zero; give the scene a gravity or remove the buoyancy");
+}
+
 // Heavy spheres in water rest on the floor and sleep. A sphere that the water carries drifts on.
 TEST(LiquidsAndSleep, OnlySpheresThatContactsCarrySleep) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
