@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the tables of docs/scene-format.md: scene_tables.py BINARY [--check]
 
-The program prints the tables, which follow from proto/spherule/v1/scene.proto. A table is between the lines
+The program prints the tables, which follow from the comments and rules in proto/spherule/v1. A table is between the lines
 `<!-- fields: MESSAGE ... -->` and `<!-- end -->`. With --check the page is not written; the exit code is 1 if it is not up
 to date."""
 import pathlib

@@ -16,8 +16,9 @@ KERNEL(params.spheres) {
     for (uint chunk = 0u; chunk < phase; ++chunk) {
         uint row = chunk * BIRTH_CHUNK_ROWS;
         vec3 apart = separation(vec3(sphere), vec3(birthPlaces[row]));
-        vec4 half = birthPlaces[row + 1u];
-        if (!(abs(apart.x) < half.x + radius && abs(apart.y) < half.y + radius && abs(apart.z) < half.z + radius)) continue;
+        vec4 sides = birthPlaces[row + 1u];
+        bool near = abs(apart.x) < sides.x + radius && abs(apart.y) < sides.y + radius && abs(apart.z) < sides.z + radius;
+        if (!near) continue;
         for (uint k = 0u; k < BIRTH_CHUNK; ++k) {
             vec4 place = birthPlaces[row + 2u + k];
             if (place.w == 0.0f) break;

@@ -21,22 +21,26 @@ constexpr std::uint32_t order = 1;
 
 Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Options& options, compute::Device& device,
                                                          sim::Simulation& simulation) {
-    if (simulation.count() == 0)
+    if (simulation.count() == 0 && simulation.scene().emitters.empty())
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
-    auto encoding = makeEncoding(options, device, simulation);
-    if (!encoding) return tl::unexpected(encoding.error());
+    Encoding encoding;
+    if (simulation.count() > 0) {
+        auto made = makeEncoding(options, device, simulation);
+        if (!made) return tl::unexpected(made.error());
+        encoding = std::move(*made);
+    }
     // The file is created last, so that an existing file is kept if the device has no room.
     auto writer = recording::Writer::create(options.path, options.replace);
     if (!writer) return tl::unexpected(writer.error());
     std::unique_ptr<RunRecorder> recorder(new RunRecorder(options, device, simulation, std::move(*writer)));
-    recorder->encoding_ = std::move(*encoding);
+    recorder->encoding_ = std::move(encoding);
     v1::ServerMessage welcome;
     *welcome.mutable_welcome() = welcomeOf(device.info());
     // These name the machine and the number of threads. A recording does not depend on them.
     welcome.mutable_welcome()->clear_renderer();
     welcome.mutable_welcome()->clear_reason();
     auto done = recorder->add(recording::Kind::Other, welcome);
-    if (done) done = recorder->beginEpoch();
+    if (done && simulation.count() > 0) done = recorder->beginEpoch();
     if (!done) return tl::unexpected(done.error());
     return recorder;
 }
@@ -58,7 +62,6 @@ Result<void> RunRecorder::beginEpoch() {
     ++epoch_;
     generation_ = simulation_.generation();
     population_ = simulation_.population().version();
-    born_ = simulation_.population().born();
     if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch_)); !done) return done;
     const std::vector<std::uint32_t> ids = encode::mortonOrder(simulation_.snapshot().position);
     std::vector<std::uint32_t> handles;
@@ -78,9 +81,9 @@ Result<void> RunRecorder::stepped(bool last) {
     const bool due = frames >= due_ || last;
     const bool otherSpheres = simulation_.population().version() != population_;
     if (otherSpheres && simulation_.count() == 0) return {};
-    // Sinks may remove spheres in each step: only the frames need their number.
-    const bool added = simulation_.population().born() != born_;
-    if (simulation_.generation() != generation_ || (otherSpheres && (due || added))) {
+    if (!encoding_.encoder && simulation_.count() == 0) return {};  // emitters have made none yet
+    // Emitters and sinks may change the spheres in each step: only the frames need their number.
+    if (!encoding_.encoder || simulation_.generation() != generation_ || (otherSpheres && due)) {
         encoding_.encoder.reset();
         encoding_.context.reset();
         auto encoding = makeEncoding(options_, device_, simulation_);

@@ -49,7 +49,9 @@ bool Simulation::canAppend(const scene::Scene& grown) const {
 Result<void> Simulation::makeRoomFor(std::uint32_t spheres) {
     const std::uint64_t handles = std::uint64_t{population_.handles()} + spheres;
     if (handles <= plan().room) return {};
-    const std::uint64_t ahead = std::min<std::uint64_t>(plan().room + plan().room / 2, Pipeline::mostHandles);
+    constexpr std::uint32_t leastGrowth = 1024;
+    const std::uint64_t ahead = std::min<std::uint64_t>(
+        std::uint64_t{plan().room} + std::max(plan().room / 2, leastGrowth), Pipeline::mostHandles);
     spdlog::info("making room for {} spheres", std::max(handles, ahead));
     auto grown = pipeline_->growSpheres(static_cast<std::uint32_t>(std::max(handles, ahead)), scene_);
     if (grown) settleClaim(claim_, device_, plan());

@@ -13,6 +13,7 @@ const views = {
   "rapids-50k": { time: 4 },
   pour: { time: 0.8 },
   hopper: { time: 3 },
+  fountain: { time: 6.5 },
   galton: { time: 6, zoom: 1 },
   drum: { time: 5 },
   "ball-mill": { time: 4 },

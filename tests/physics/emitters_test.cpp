@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scene/quality.h"
 #include "scene/random.h"
 #include "scene_support.h"
 #include "support.h"
@@ -60,13 +61,12 @@ TEST(Emitters, KeepAsManySpheresInTheAirAsFallsLast) {
     }
 }
 
-// A box with a ball in it, into which an emitter throws spheres of two sizes from all sides; a sink takes them at the
-// floor.
+// A box, with a ball in it unless it is periodic, into which an emitter throws spheres of two sizes from all sides; a
+// sink takes them at the floor.
 scene::Scene crowd(scene::Model model, std::uint64_t seed, double rate, const std::string& periodic = "") {
     scene::Scene scene = sceneOf(fmt::format(
         R"({{"bounds": {{"min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 1]{}}}, "quality": {{"model": "{}"}},
         "materials": [{{"friction": 0.4}}],
-        "obstacles": [{{"sphere": {{"centre": [0.1, 0, 0.6], "radius": 0.2}}}}],
         "emitters": [{{"box": {{"min": [-0.5, -0.5, 0.3], "max": [0.5, 0.5, 1]}}, "rate": {},
                       "radius": {{"uniform": {{"min": 0.02, "max": 0.04}}}}, "velocitySpread": 1, "seed": {}}}],
         "sinks": [{{"region": {{"min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 0.05]}}}}]}})",
@@ -75,6 +75,7 @@ scene::Scene crowd(scene::Model model, std::uint64_t seed, double rate, const st
         : model == scene::Model::Balanced ? "BALANCED"
                                           : "ACCURATE",
         rate, seed));
+    if (periodic.empty()) scene.obstacles = {obstacleFrom(R"({"sphere": {"centre": [0.1, 0, 0.6], "radius": 0.2}})")};
     return scene;
 }
 
@@ -91,7 +92,8 @@ double deepestOfNew(const sim::State& state, const scene::Scene& scene, std::uin
                                radiusOf(state, k);
             deepest = std::max(deepest, -gap / r);
         }
-        deepest = std::max(deepest, (r - scene.obstacles[0].distance(x + scene.bounds.centre(), 0)) / r);
+        for (const scene::Obstacle& obstacle : scene.obstacles)
+            deepest = std::max(deepest, (r - obstacle.distance(x + scene.bounds.centre(), 0)) / r);
         for (int axis = 0; axis < 3; ++axis)
             if (!scene.bounds.periodic[static_cast<std::size_t>(axis)])
                 deepest = std::max(deepest, (std::abs(x[axis]) + r - 0.5) / r);
@@ -103,11 +105,11 @@ class Emitters : public testing::TestWithParam<scene::Model> {};
 
 TEST_P(Emitters, NeverMakeASphereInAnother) {
     for (const std::string periodic : {"", R"(, "periodic": ["X", "Y"])"})
-        for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        for (const std::uint64_t seed : {1U, 2U}) {
             const scene::Scene scene = crowd(GetParam(), seed, 3000, periodic);
             auto simulation = simulate(scene);
             std::uint64_t before = 0;
-            for (int k = 0; k < 60; ++k) {
+            for (int k = 0; k < 40; ++k) {
                 ASSERT_TRUE(simulation->step());
                 const std::uint64_t next = simulation->population().nextId();
                 if (next == before) continue;
@@ -128,7 +130,7 @@ TEST_P(Emitters, GiveTheSameBitsOnAllDevices) {
     for (const char* const choice : {"software", "cpu:1x1", "cpu:2x4", "cpu:3x8"}) {
         const auto device = compute::openDevice(choice).value();
         auto simulation = simulate(crowd(GetParam(), 5, 600), *device);
-        run(*simulation, 0.5);
+        run(*simulation, 0.2);
         const std::uint64_t hash = sim::hashOf(simulation->snapshot());
         EXPECT_EQ(hash, expected.value_or(hash)) << choice;
         expected = hash;
@@ -179,7 +181,7 @@ TEST(Emitters, OutgrowTheirGrid) {
     scene::Scene scene = simulation->scene();
     scene.emitters =
         sceneOf(R"({"bounds": {"min": [-2, -2, 0], "max": [2, 2, 4]}, "emitters": [{"box": {"min": [-2, -2, 0],
-        "max": [2, 2, 4]}, "rate": 60000, "total": 9000, "radius": {"constant": 0.05}}]})")
+        "max": [2, 2, 4]}, "rate": 120000, "total": 20000, "radius": {"constant": 0.05}}]})")
             .emitters;
     scene.groups.emplace_back();
     scene.emitters[0].group = 1;
@@ -189,9 +191,9 @@ TEST(Emitters, OutgrowTheirGrid) {
     run(*simulation, 0.5);
     EXPECT_GT(simulation->plan().grid.all(), cells);
     const sim::Statistics now = simulation->statistics();
-    EXPECT_EQ(now.emitters[0].born.spheres + now.emitters[0].blocked + now.emitters[0].waiting, 9000U);
-    EXPECT_EQ(now.born, now.spheres);
-    EXPECT_GT(now.spheres, 6000U);
+    EXPECT_EQ(now.emitters[0].born.spheres, 20'000U);
+    EXPECT_EQ(now.born, 20'001U);
+    EXPECT_EQ(now.spheres, 20'001U);
     EXPECT_EQ(simulation->scene().groups[1].count, now.spheres - 1);
     EXPECT_EQ(now.nonFinite, 0U);
 }

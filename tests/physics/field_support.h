@@ -14,7 +14,7 @@ namespace spherule::physics {
 constexpr double fieldRadius = 0.05;                  // m
 constexpr double fieldVolume = 5.235987755982989e-4;  // m^3
 constexpr double fieldMass = 1000 * fieldVolume;      // kg
-constexpr std::array fieldModels = {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate};
+inline constexpr std::array fieldModels = {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate};
 
 glm::dvec3 randomDirection(scene::Random& random);
 

@@ -121,8 +121,8 @@ TEST_P(Friction, ConservesMomentumAndAngularMomentum) {
                        {.name = "heavy", .density = 4000, .friction = 0.6}};
     scene.quality = {.model = GetParam(), .substepsFixed = false};
     scene.step = 1.0 / 480;
-    scene.spheres = {{{-0.2, 0.03, 0.02}, {1, 0, 0}, 0.05F, 0, false, {3, 40, -20}},
-                     {{0, 0, 0}, {}, 0.07F, 1, false, {0, -10, 9}}};
+    scene.spheres = {{{-0.2, 0.03, 0.02}, {1, 0, 0}, 0.05F, 0, false, 0, {3, 40, -20}},
+                     {{0, 0, 0}, {}, 0.07F, 1, false, 0, {0, -10, 9}}};
     ASSERT_TRUE(scene::fitSubsteps(scene));
     const auto simulation = simulate(scene);
     const sim::Statistics before = simulation->statistics();

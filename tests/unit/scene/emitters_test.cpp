@@ -70,7 +70,7 @@ TEST(Emitters, AreRefusedWithTheFieldAndTheReason) {
               start + "disc.hole: is 1 m, must be below the radius, 1 m");
     EXPECT_EQ(
         refusalOf(emitter(R"("cylinder": {"from": [0, 0, 0], "to": [0, 0, 0], "radius": 1}, )" + std::string(flow))),
-        start + "cylinder.to: is the same point as from");
+        start + "cylinder.to: is (0, 0, 0), must differ from `from`");
     EXPECT_EQ(refusalOf(emitter(R"("cylinder": {"from": [0, 0, 0], "to": [0, 0, 1], "radius": 1, "open": true}, )" +
                                 std::string(flow))),
               start + "cylinder.open: is true; a region is the inside of a solid shape: leave it out");

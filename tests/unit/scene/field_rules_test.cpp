@@ -165,7 +165,7 @@ TEST(FieldRules, RangesAreThoseOfTheReader) {
         for (int k = 0; k < message->field_count(); ++k) {
             const v1::Rule& rule = ruleOf(*message->field(k));
             const bool limited = rule.has_min() || rule.has_max() || rule.has_above();
-            // Only scene files name files. The limits of lists of numbers are those of their entries.
+            // Only scene files name files. A list of numbers has the limits of its entries.
             if (message->full_name() == "spherule.v1.Xyz" || message->full_name() == "spherule.v1.Lammps") continue;
             if (message->field(k)->is_repeated()) continue;
             EXPECT_TRUE(!limited || tested.contains(message->field(k)->full_name())) << message->field(k)->full_name();

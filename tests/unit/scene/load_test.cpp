@@ -35,11 +35,12 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
 }
 
 TEST(SceneLoad, NamesAreSortedAndIncludeTheExamples) {
-    const std::vector<std::string> expected{
-        "avalanche", "ball-mill", "billiards",       "bounce",     "box",       "box-10k",    "box-4k",     "box-50k",
-        "conveyor",  "cradle",    "cradle-touching", "drum",       "galton",    "hopper",     "marble-run", "mixer",
-        "piston",    "pour",      "press",           "rapids",     "rapids-3k", "rapids-50k", "rapids-6k",  "screw",
-        "sieve",     "silo",      "stress-1m",       "two-spheres"};
+    const std::vector<std::string> expected{"avalanche",       "ball-mill", "billiards",  "bounce",     "box",
+                                            "box-10k",         "box-4k",    "box-50k",    "conveyor",   "cradle",
+                                            "cradle-touching", "drum",      "fountain",   "galton",     "hopper",
+                                            "marble-run",      "mixer",     "piston",     "pour",       "press",
+                                            "rapids",          "rapids-3k", "rapids-50k", "rapids-6k",  "screw",
+                                            "sieve",           "silo",      "stress-1m",  "two-spheres"};
     EXPECT_EQ(names(), expected);
 }
 
@@ -96,12 +97,12 @@ TEST(SceneLoad, CradlesHaveTheNamedProperties) {
 }
 
 TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
-    EXPECT_EQ(
-        load("bux", "gpu").error().text(),
-        "\"bux\": is not the name of a scene; there are avalanche, ball-mill, billiards, bounce, box, box-10k, "
-        "box-4k, box-50k, conveyor, cradle, cradle-touching, drum, galton, hopper, marble-run, mixer, piston, pour, "
-        "press, rapids, rapids-3k, rapids-50k, rapids-6k, screw, sieve, silo, stress-1m, two-spheres. A file is named "
-        "with its ending, .json");
+    EXPECT_EQ(load("bux", "gpu").error().text(),
+              "\"bux\": is not the name of a scene; there are avalanche, ball-mill, billiards, bounce, box, box-10k, "
+              "box-4k, box-50k, conveyor, cradle, cradle-touching, drum, fountain, galton, hopper, marble-run, mixer, "
+              "piston, pour, press, rapids, rapids-3k, rapids-50k, rapids-6k, screw, sieve, silo, stress-1m, "
+              "two-spheres. A file is "
+              "named with its ending, .json");
 }
 
 TEST(SceneLoad, MissingFilesAreRefused) {

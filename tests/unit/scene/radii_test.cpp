@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/check.h"
 #include "scene/portable_exp.h"
 #include "scene/radius_distribution.h"
 #include "scene_support.h"

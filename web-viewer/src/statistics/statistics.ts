@@ -169,22 +169,18 @@ function turnover({ born, removed }: Statistics): Figure[] {
 function flows({ emitters, sinks }: Statistics): Figure[] {
   const flow = (one: FlowCounts | undefined): string =>
     `${count(one?.spheres ?? 0n)}, ${figure(one?.spheresPerSecond ?? 0)}/s`;
-  const made = emitters.map(
-    ({ name, born, blocked }, k): Figure => ({
-      id: `emitter-${k}`,
-      name: `Made by ${name || `emitter ${k}`}`,
-      value: flow(born) + (blocked > 0n ? `, ${count(blocked)} blocked` : ""),
-      about: "Spheres that it has made, and how many in the last second. Blocked ones found no free place",
-    }),
-  );
-  const taken = sinks.map(
-    (sink, k): Figure => ({
-      id: `sink-${k}`,
-      name: `Taken by sink ${k}`,
-      value: flow(sink.taken),
-      about: "Spheres that it has taken, and how many in the last second",
-    }),
-  );
+  const made = emitters.map(({ name, born, blocked }, k): Figure => ({
+    id: `emitter-${k}`,
+    name: `Made by ${name || `emitter ${k}`}`,
+    value: flow(born) + (blocked > 0n ? `, ${count(blocked)} blocked` : ""),
+    about: "Spheres that it has made, and how many in the last second. Blocked ones found no free place",
+  }));
+  const taken = sinks.map((sink, k): Figure => ({
+    id: `sink-${k}`,
+    name: `Taken by sink ${k}`,
+    value: flow(sink.taken),
+    about: "Spheres that it has taken, and how many in the last second",
+  }));
   return [...made, ...taken];
 }
 
