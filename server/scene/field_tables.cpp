@@ -64,7 +64,7 @@ std::string allowedText(const FieldDescriptor& field) {
         if (field.is_repeated()) text = "list of " + text;
     }
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) text = "`true`, `false`";
-    if (field.cpp_type() == FieldDescriptor::CPPTYPE_UINT64) text = "0 to 2⁶⁴ − 1";
+    if (field.cpp_type() == FieldDescriptor::CPPTYPE_UINT64 && text.empty()) text = "0 to 2⁶⁴ − 1";
     if (rule.most() > 0) text = fmt::format("up to {}{}", number(rule.most()), field.is_repeated() ? "" : " bytes");
     return text;
 }

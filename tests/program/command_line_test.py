@@ -17,7 +17,7 @@ from serving import Server
 
 DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
-KEYS = """scene device renderer quality spheres born removed steps substepsPerStep simSeconds intervalSeconds wallSeconds realTimeFactor
+KEYS = """scene device renderer quality spheres born removed emitters sinks steps substepsPerStep simSeconds intervalSeconds wallSeconds realTimeFactor
 deviceSeconds passSeconds rebuilds launches longestChain kineticEnergy rotationalEnergy elasticEnergy potentialEnergy pushWork momentum angularMomentum contacts
 overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite impacts restitution
 restitutionAsked collisions dissipatedEnergy kineticStress contactStress surfaceForces stateHash""".split()

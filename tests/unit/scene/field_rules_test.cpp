@@ -27,7 +27,7 @@ const std::vector<std::string>& examples() {
                 {"lattice": {"min": [1,1,1], "max": [2,2,2], "spacing": 0.5}, "radius": {"uniform": {"min": 0.1, "max": 0.2}}},
                 {"fill": {"min": [3,3,3], "max": [4,4,4], "count": 1},
                  "radius": {"normal": {"mean": 0.1, "deviation": 0.01, "min": 0.05, "max": 0.15}}}],
-            "emitters": [{"sphere": {"centre": [0,0,0], "radius": 1}, "rate": 1,
+            "emitters": [{"sphere": {"centre": [0,0,0], "radius": 1}, "rate": 1, "total": 1,
                  "radius": {"logNormal": {"median": 0.1, "deviation": 0.1, "min": 0.05, "max": 0.15}}},
                 {"disc": {"centre": [0,0,0], "normal": [0,0,1], "radius": 1}, "massFlow": 1,
                  "schedule": [{"from": 1, "to": 2}], "repeat": 3,
@@ -71,6 +71,8 @@ std::string refusedWith(const v1::Scene& scene, pb::Message& message, const pb::
     const pb::Reflection& reflection = *message.GetReflection();
     if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE)
         reflection.SetDouble(&message, &field, value);
+    else if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_UINT64)
+        reflection.SetUInt64(&message, &field, static_cast<std::uint64_t>(value));
     else
         reflection.SetUInt32(&message, &field, static_cast<std::uint32_t>(value));
     const auto built = build(scene);
@@ -80,12 +82,9 @@ std::string refusedWith(const v1::Scene& scene, pb::Message& message, const pb::
 
 // Limits that another field narrows: they are not allowed in the examples.
 bool isNarrowed(const std::string& field, double value) {
-    static const std::map<std::string, double> narrowed{{"spherule.v1.Uniform.max", 1e-6},
-                                                        {"spherule.v1.Normal.max", 1e-6},
-                                                        {"spherule.v1.LogNormal.max", 1e-6},
-                                                        {"spherule.v1.Span.to", 1e9},
-                                                        {"spherule.v1.DiscShape.hole", 1e9},
-                                                        {"spherule.v1.Quality.substeps", 1e6}};
+    static const std::map<std::string, double> narrowed{
+        {"spherule.v1.Uniform.max", 1e-6}, {"spherule.v1.Normal.max", 1e-6},    {"spherule.v1.LogNormal.max", 1e-6},
+        {"spherule.v1.Span.to", 1e9},      {"spherule.v1.DiscShape.hole", 1e9}, {"spherule.v1.Quality.substeps", 1e6}};
     const auto found = narrowed.find(field);
     return found != narrowed.end() && found->second == value;
 }

@@ -102,9 +102,9 @@ TEST(SceneStructure, MissingAndDoubledFieldsAreNamed) {
     EXPECT_EQ(mistakesOfText("{\n \"bounds\": {\"min\": [0,0,0]}}"),
               ":2:12 bounds.max: is missing; it must be three numbers: x, y, z\n");
     EXPECT_EQ(mistakesWith(R"("groups": [{}])"),
-              ":2:12 groups[0]: has none of list, lattice, fill, csv; give one of them\n");
+              ":2:12 groups[0]: has none of list, lattice, fill, csv, xyz, lammps; give one of them\n");
     EXPECT_EQ(mistakesWith(R"("groups": [{"list": {}, "csv": {"file": "a"}}])"),
-              ":2:25 groups[0].csv: is beside `list`; Group has only one of list, lattice, fill, csv\n");
+              ":2:25 groups[0].csv: is beside `list`; Group has only one of list, lattice, fill, csv, xyz, lammps\n");
     EXPECT_EQ(mistakesWith(R"("step": 0.1, "step": 0.2)"), ":2:14 step: is given twice\n");
     EXPECT_EQ(mistakesWith(R"("camera": {"fieldOfView": 30, "field_of_view": 31})"),
               ":2:31 camera.fieldOfView: is given twice\n");

@@ -68,10 +68,10 @@ Bounds contentsOf(const Scene& scene) {
     Bounds contents;
     contents.min = glm::dvec3(infinity);
     contents.max = glm::dvec3(-infinity);
-    for (const Sphere& s : scene.spheres) {
+    forEachSphere(scene, [&](const Sphere& s, double /*weight*/) {
         contents.min = glm::min(contents.min, s.position - static_cast<double>(s.radius));
         contents.max = glm::max(contents.max, s.position + static_cast<double>(s.radius));
-    }
+    });
     if (!hasWalls(scene)) return contents;
     const double top = contents.max.z;
     contents.min = scene.bounds.min;

@@ -50,7 +50,8 @@ TEST(SceneXyz, ScaleConvertsLengths) {
     EXPECT_EQ(spheres[0].radius, 5.5F);
     EXPECT_EQ(spheres[0].velocity, glm::vec3(0.004F, 0.005F, 0.006F));
     EXPECT_EQ(spheres[0].spin, glm::vec3(7, 8, 9));
-    EXPECT_EQ(file.refusal("0\n\n", R"(, "scale": -1)", group), "groups[0].xyz.scale: is -1, must be positive");
+    EXPECT_EQ(file.refusal("0\n\n", R"(, "scale": -1)", group),
+              "groups[0].xyz.scale: is -1, must be above 0 m per unit of length of the file");
 }
 
 TEST(SceneXyz, FrameIsChosen) {
