@@ -31,7 +31,7 @@ MISTAKES = [
     ('"pairs": {"a": "a", "b": "b"},', 10, "pairs", "is an object, must be a list"),
     ('"fields": [{"attraction": {"centre": [0, 0, 0], "softening": 0}},', 62, "fields[0].attraction.softening",
      "is 0, must be 1e-06 to 1000000000 m"),
-    ('{}],', 1, "fields[1]", "has none of drag, attraction; give one of them"),
+    ('{}],', 1, "fields[1]", "has none of drag, attraction, buoyancy, spring; give one of them"),
     ('"obstacles": [{"sphere": {"centre": [0, 0, 0]}},', 26, "obstacles[0].sphere.radius",
      "is missing; it must be a number"),
     ('{"plane": {"point": [0, 0, 0], "normal": [0, "up", 1]}},', 46, "obstacles[1].plane.normal[1]",

@@ -83,8 +83,9 @@ std::string refusedWith(const v1::Scene& scene, pb::Message& message, const pb::
 // Limits that another field narrows: they are not allowed in the examples.
 bool isNarrowed(const std::string& field, double value) {
     static const std::map<std::string, double> narrowed{
-        {"spherule.v1.Uniform.max", 1e-6}, {"spherule.v1.Normal.max", 1e-6},    {"spherule.v1.LogNormal.max", 1e-6},
-        {"spherule.v1.Span.to", 1e9},      {"spherule.v1.DiscShape.hole", 1e9}, {"spherule.v1.Quality.substeps", 1e6}};
+        {"spherule.v1.Uniform.max", 1e-6},    {"spherule.v1.Normal.max", 1e-6},    {"spherule.v1.LogNormal.max", 1e-6},
+        {"spherule.v1.Span.to", 1e9},         {"spherule.v1.Emitter.repeat", 1e9}, {"spherule.v1.DiscShape.hole", 1e9},
+        {"spherule.v1.Quality.substeps", 1e6}};
     const auto found = narrowed.find(field);
     return found != narrowed.end() && found->second == value;
 }
