@@ -84,11 +84,27 @@ Digest resultsOfScene(const scene::Scene& scene) {
     return digest;
 }
 
+// An emitter of slow spheres in the upper part of a mixture.
+scene::Emitter slowEmitter() {
+    scene::Emitter emitter = physics::named("fountain").emitters.at(0);
+    emitter.region = scene::Box{{-0.2, -0.2, 0.3}, {0.2, 0.2, 0.4}};
+    emitter.velocity = {};
+    emitter.velocitySpread = 0;
+    emitter.material = 0;
+    emitter.group = 0;
+    emitter.expected = 10;
+    for (scene::Sphere& sample : emitter.samples)
+        sample = {.position = {0, 0, 0.35}, .radius = sample.radius, .material = 0};
+    return emitter;
+}
+
 Digest resultsOfCommands(scene::Model model) {
     scene::Scene scene = physics::mixture(model);
     scene.contactSums = true;
     scene.sleep.enabled = true;
     scene.sinks = {{{-0.5, -0.5, -0.5}, {-0.3, 0.5, -0.3}}};
+    scene.groups = {{.name = "all", .count = static_cast<std::uint32_t>(scene.spheres.size()), .look = {}}};
+    scene.emitters = {slowEmitter()};
     scene.obstacles.push_back(physics::obstacleFrom(
         R"({"capsule": {"from": [-0.3, 0.2, -0.3], "to": [0.3, 0.2, -0.3], "radius": 0.05}, "motion": {"spin": [3, 0, 0]}})"));
     const auto device = valueOf(compute::openDevice("cpu:1x1"));

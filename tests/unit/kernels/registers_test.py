@@ -55,7 +55,12 @@ LIMITS = {
 EVERYTHING = {
     "name": "everything",
     "gravity": [0, 0, -9.81],
-    "fields": [{"drag": {}}, {"attraction": {"centre": [0, 0, 0.5], "strength": 2, "softening": 0.1}}],
+    "fields": [
+        {"drag": {"velocity": [1, 0, 0], "vortex": {"centre": [0, 0, 0], "axis": [0, 0, 1], "speed": 1, "core": 1}},
+         "inCylinder": {"from": [0, 0, 0], "to": [0, 0, 1], "radius": 1}},
+        {"buoyancy": {"surface": [0, 0, 0.5]}, "inSphere": {"centre": [0, 0, 0], "radius": 1}},
+        {"spring": {"centre": [0, 0, 0], "stiffness": 1e-3, "damping": 1e-4}},
+        {"attraction": {"centre": [0, 0, 0], "strength": 1, "softening": 1}}],
     "bounds": {"min": [-2, -2, 0], "max": [2, 2, 3], "open": ["Z_MAX"], "material": "b"},
     "materials": [
         {"name": "a", "friction": 0.4, "rollingResistance": 0.1, "spinningResistance": 0.05, "young": 1e9},
@@ -95,7 +100,7 @@ def everything(model, shapes=None, periodic=False):
         scene["obstacles"] = [one for one in scene["obstacles"] if shapes & set(one)]
     if periodic:
         scene["bounds"] |= {"periodic": ["X", "Y"]}
-        scene["fields"].pop()  # attractions have no images
+        scene["fields"] = [{"drag": {"velocity": [1, 0, 0]}}]  # the others have no images
     return scene
 
 
