@@ -79,7 +79,8 @@ TEST(Plan, WithAllFeaturesHasExactlyThePassesOfItsModel) {
 }
 
 TEST(Plan, WithAllFeaturesInAllModelsHasEveryArray) {
-    std::set<Array> arrays{Array::Pulls};  // made by the first pull
+    // Made by the first pull and the first birth.
+    std::set<Array> arrays{Array::Pulls, Array::BirthPlaces, Array::BirthTaken};
     for (const auto& [model, passes] : passesByModel)
         for (const bool periodic : {false, true}) {
             scene::Scene scene = everything(model);
