@@ -174,8 +174,12 @@ void checkFreePlaces(Check& check, const Emitter& emitter, const Scene& scene, c
                                     samplesPerEmitter * Emitter::mostAttempts, emitter.radii.min, reason));
 }
 
-Emitter readEmitter(Check& check, const v1::Emitter& message, const std::string& field, const Scene& scene) {
+// `number`: of the emitter in the scene.
+Emitter readEmitter(Check& check, const v1::Emitter& message, std::size_t number, const Scene& scene) {
+    const std::string field = at("emitters", number);
     Emitter emitter;
+    emitter.stream = number;
+    emitter.group = static_cast<std::uint16_t>(scene.groups.size());
     checkName(check, message.name(), at(field, "name"));
     emitter.name = message.name();
     emitter.region = readRegion(check, message, field);
@@ -223,10 +227,7 @@ void readEmitters(Check& check, const v1::Scene& message, std::optional<std::uin
         const std::string field = at("emitters", k);
         v1::Emitter one = message.emitters(static_cast<int>(k));
         if (seed) one.set_seed(*seed);
-        Emitter emitter = readEmitter(check, one, field, scene);
-        emitter.stream = k;
-        emitter.group = static_cast<std::uint16_t>(scene.groups.size());
-        for (Sphere& sphere : emitter.samples) sphere.group = emitter.group;
+        Emitter emitter = readEmitter(check, one, k, scene);
         Group group = groupOf({}, emitter.name, readLook(check, one, field));
         group.material = emitter.material;
         scene.groups.push_back(std::move(group));

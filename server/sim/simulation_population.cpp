@@ -112,20 +112,19 @@ void Simulation::emptySinks() {
     const std::vector<scene::Box> sinks = sinksOnDevice(scene_);
     const State state = snapshot();
     std::vector<std::uint32_t> ranks;
-    Flows flows = flows_;
+    std::vector<SinkFlow> flows = flows_.sinks;
     for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
         const auto sink =
             std::ranges::find_if(sinks, [&](const scene::Box& box) { return box.contains(positionOf(state, rank)); });
         if (sink == sinks.end()) continue;
         ranks.push_back(rank);
         const scene::Sphere& sphere = scene_.spheres[rank];
-        flows.sinks[static_cast<std::size_t>(sink - sinks.begin())].add(time(), sphere.material,
-                                                                        massOf(scene_, sphere));
+        flows[static_cast<std::size_t>(sink - sinks.begin())].add(time(), sphere.material, massOf(scene_, sphere));
     }
     const std::uint32_t none = 0;
     pipeline_->write<std::uint32_t>(Array::Counters, std::span(&none, 1), COUNTER_SUNK);
     const auto removed = remove(ranks);
-    if (removed) flows_ = std::move(flows);
+    if (removed) flows_.sinks = std::move(flows);
     if (!removed && !std::exchange(noticedFullSinks_, true))
         notices_.push_back(
             fmt::format("at step {}, sinks cannot take spheres, and try again: {}", steps_, removed.error().text()));

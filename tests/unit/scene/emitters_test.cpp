@@ -192,6 +192,8 @@ TEST(Emitters, MakeTheSameSpheresAgain) {
     const Scene two = sceneWith("\"emitters\": [{" + std::string(ball) + ", " + std::string(flow) + "}, {" +
                                 std::string(ball) + ", " + std::string(flow) + "}]");
     EXPECT_NE(two.emitters[0].place(0, 0), two.emitters[1].place(0, 0)) << "emitters with the same seed differ";
+    for (const Emitter& emitter : two.emitters)
+        EXPECT_EQ(emitter.samples[5].position, emitter.place(5, 0)) << "samples are spheres that it makes";
 }
 
 TEST(Emitters, HaveAGroupBehindTheOthers) {
