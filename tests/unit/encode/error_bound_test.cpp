@@ -43,6 +43,23 @@ double bound(double x, double quantum) {
 // has only some layers.
 constexpr std::uint32_t mostSpheres = 100'000;
 
+// Returns a scene with emitters as it is after two seconds, without emitters and sinks: the number of spheres stays.
+scene::Scene afterBirths(scene::Scene scene) {
+    const auto device = valueOf(compute::openDevice("cpu"));
+    const auto simulation = valueOf(sim::Simulation::create(*device, scene));
+    while (simulation->time() < 2) valueOf(simulation->advance());
+    const sim::State state = simulation->snapshot();
+    scene.spheres = simulation->scene().spheres;
+    for (std::uint32_t k = 0; k < state.count(); ++k) {
+        scene.spheres[k].position = sim::positionOf(state, k) + scene.bounds.centre();
+        scene.spheres[k].velocity = glm::vec3(state.velocity[k]);
+    }
+    scene.groups = simulation->scene().groups;
+    scene.emitters.clear();
+    scene.sinks.clear();
+    return scene;
+}
+
 scene::Scene sceneOf(const std::string& name) {
     const auto text = scene::embeddedScene(name, "cpu");
     if (!text) throw std::runtime_error("no scene " + name);
@@ -50,7 +67,8 @@ scene::Scene sceneOf(const std::string& name) {
     for (v1::Group& group : *message.mutable_groups())
         if (group.has_lattice() && group.lattice().count() > mostSpheres)
             group.mutable_lattice()->set_count(mostSpheres);
-    return valueOf(scene::build(message));
+    scene::Scene scene = valueOf(scene::build(message));
+    return scene.emitters.empty() ? scene : afterBirths(std::move(scene));
 }
 
 // One chain with two decoders: one from the start, and one from a resync keyframe in the middle.
