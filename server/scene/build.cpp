@@ -15,7 +15,6 @@
 #include "scene/periodic_axes.h"
 #include "scene/quality.h"
 #include "scene/radius_distribution.h"
-#include "scene/read_forces.h"
 #include "scene/shapes.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
@@ -109,7 +108,8 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
         check.refuse("name", fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
     scene.name = message.name();
     scene.description = message.description();
-    scene.forces = readForces(check, message);
+    scene.forces.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
+    scene.forces.fields = readFields(check, message);
     scene.materials = readMaterials(check, message.materials());
     if (check.ok()) scene.pairs = readPairs(check, message.pairs(), scene.materials);
     if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");

@@ -4,7 +4,6 @@
 #include "scene/emitters.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
-#include "scene/read_forces.h"
 #include "scene/surroundings.h"
 
 namespace spherule::scene {
@@ -80,7 +79,8 @@ v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_
     v1::Scene message;
     message.set_name(scene.name);
     message.set_description(scene.description);
-    writeForces(message, scene.forces);
+    setVector(*message.mutable_gravity(), scene.forces.gravity);
+    writeFields(message, scene.forces.fields);
     setMaterials(message, scene);
     setBounds(message, scene, time);
     setGroups(message, scene);

@@ -2,13 +2,22 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "scene/region.h"
 
+namespace spherule::v1 {
+class Scene;
+}
+
 // The fields of a scene and their laws. Kernels have the same laws in shaders/shared/fields.h.
 namespace spherule::scene {
+
+class Check;
+
+constexpr unsigned maxFields = 8;
 
 // The data of a sphere on which fields depend.
 struct Body {
@@ -73,5 +82,10 @@ bool addsEnergy(const Field& field);
 double submergedVolume(double radius, double depth);
 // Returns the integral of submergedVolume() (m^4) from a sphere above the plane down to `depth`.
 double submergedIntegral(double radius, double depth);
+
+// Reads `fields` of a scene.
+std::vector<Field> readFields(Check& check, const v1::Scene& message);
+// Adds fields to a message.
+void writeFields(v1::Scene& message, const std::vector<Field>& fields);
 
 }  // namespace spherule::scene

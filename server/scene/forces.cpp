@@ -181,8 +181,9 @@ double strongestAcceleration(const Scene& scene) {
 double highestFieldFrequency(const Scene& scene) {
     if (!(scene.forces.frequencyOf({.radius = 1, .mass = 1}) > 0)) return 0;
     double highest = 0;
-    for (const Sphere& sphere : scene.spheres)
+    forEachSphere(scene, [&](const Sphere& sphere, double /*weight*/) {
         if (!sphere.fixed) highest = std::max(highest, scene.forces.frequencyOf(bodyOf(scene, sphere)));
+    });
     return highest;
 }
 

@@ -14,8 +14,6 @@ namespace spherule::scene {
 struct Scene;
 struct Sphere;
 
-constexpr unsigned maxFields = 8;
-
 // The forces on every sphere besides contacts.
 struct Forces {
     glm::dvec3 gravity{};  // m/s^2

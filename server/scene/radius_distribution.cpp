@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "scene/check.h"
-#include "scene/portable_exp.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {

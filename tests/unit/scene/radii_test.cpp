@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "scene/check.h"
-#include "scene/portable_exp.h"
 #include "scene/radius_distribution.h"
 #include "scene_support.h"
 
