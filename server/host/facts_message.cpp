@@ -119,6 +119,7 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     facts.set_epoch(epoch);
     facts.set_name(scene.name);
     facts.set_description(scene.description);
+    facts.set_what_to_try(scene.whatToTry);
     scene::setVector(*facts.mutable_bounds_min(), scene.bounds.min);
     scene::setVector(*facts.mutable_bounds_max(), scene.bounds.max);
     for (int face = 0; face < 6; ++face)

@@ -93,6 +93,7 @@ net::Handlers Host::handlers() {
                     v1::SceneEntry& shown = *welcome.add_gallery();
                     shown.set_name(entry.name);
                     shown.set_description(entry.description);
+                    shown.set_what_to_try(entry.whatToTry);
                     shown.set_spheres(entry.spheres);
                 }
                 return welcome;

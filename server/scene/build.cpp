@@ -108,6 +108,10 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
         check.refuse("name", fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
     scene.name = message.name();
     scene.description = message.description();
+    if (message.what_to_try().size() > longestAdvice)
+        check.refuse("whatToTry",
+                     fmt::format("is {} bytes long, must be at most {}", message.what_to_try().size(), longestAdvice));
+    scene.whatToTry = message.what_to_try();
     scene.forces.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
     scene.forces.fields = readFields(check, message);
     scene.materials = readMaterials(check, message.materials());

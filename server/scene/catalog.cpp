@@ -50,7 +50,7 @@ std::vector<CatalogEntry> readCatalog() {
     for (const embedded::File& file : embedded::exampleScenes()) {
         const auto scene = parseJson(std::string(file.bytes), file.path);
         if (!scene) continue;  // a test loads every scene
-        entries.push_back({scene->name(), scene->description(), spheresIn(*scene)});
+        entries.push_back({scene->name(), scene->description(), scene->what_to_try(), spheresIn(*scene)});
     }
     std::ranges::stable_sort(entries, {}, &CatalogEntry::spheres);
     return entries;

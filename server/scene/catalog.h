@@ -17,6 +17,7 @@ std::optional<std::string_view> embeddedScene(std::string_view name, std::string
 struct CatalogEntry {
     std::string name;
     std::string description;
+    std::string whatToTry;
     std::uint32_t spheres;  // at the beginning
 };
 

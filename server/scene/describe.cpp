@@ -79,6 +79,7 @@ v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_
     v1::Scene message;
     message.set_name(scene.name);
     message.set_description(scene.description);
+    message.set_what_to_try(scene.whatToTry);
     setVector(*message.mutable_gravity(), scene.forces.gravity);
     writeFields(message, scene.forces.fields);
     setMaterials(message, scene);

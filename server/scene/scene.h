@@ -153,6 +153,7 @@ struct Sleep {
 struct Scene {
     std::string name;
     std::string description;
+    std::string whatToTry;  // by a viewer
     Forces forces;
     Bounds bounds;
     std::vector<Obstacle> obstacles;
