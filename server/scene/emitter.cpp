@@ -20,48 +20,8 @@ Random randomFor(const Emitter& emitter, Purpose purpose, std::uint64_t number) 
     return Random(emitter.seed + apart * stream, number);
 }
 
-// Returns a point that is uniform in a ball of this radius about 0, by rejection: exactly rounded arithmetic alone.
-glm::dvec3 inBall(Random& random, double radius) {
-    for (;;) {
-        glm::dvec3 p{};
-        for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(-1, 1);
-        if (glm::dot(p, p) <= 1) return radius * p;
-    }
-}
-
-// Returns a point of the surface between two circles about 0, uniform, in the plane across `normal`.
-glm::dvec3 inRing(Random& random, const glm::dvec3& normal, double hole, double radius) {
-    const glm::dvec3 other = std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(normal, other));
-    const glm::dvec3 v = glm::cross(normal, u);
-    const double distance = std::sqrt(random.uniform(hole * hole, radius * radius));
-    for (;;) {
-        const double x = random.uniform(-1, 1);
-        const double y = random.uniform(-1, 1);
-        const double square = x * x + y * y;
-        if (square > 1 || square < 1e-6) continue;
-        return (u * x + v * y) * (distance / std::sqrt(square));
-    }
-}
-
-glm::dvec3 placeIn(const Box& box, Random& random) {
-    glm::dvec3 p{};
-    for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(box.min[axis], box.max[axis]);
-    return p;
-}
-
-glm::dvec3 placeIn(const BallRegion& ball, Random& random) {
-    return ball.centre + inBall(random, ball.radius);
-}
-
-glm::dvec3 placeIn(const CylinderRegion& cylinder, Random& random) {
-    const glm::dvec3 along = cylinder.to - cylinder.from;
-    const glm::dvec3 foot = cylinder.from + along * random.uniform();
-    return foot + inRing(random, glm::normalize(along), 0, cylinder.radius);
-}
-
 glm::dvec3 placeIn(const DiscRegion& disc, Random& random) {
-    return disc.centre + inRing(random, disc.normal, disc.hole, disc.radius);
+    return disc.centre + placeInRing(disc.normal, disc.hole, disc.radius, random);
 }
 
 // Returns the seconds of work in a part of a cycle.
@@ -98,7 +58,7 @@ Sphere Emitter::sphere(std::uint64_t number) const {
     Random random = randomFor(*this, Purpose::Properties, number);
     Sphere made{.radius = radii.draw(random), .material = material, .group = group, .spin = spin};
     glm::dvec3 start = velocity;
-    if (velocitySpread > 0) start += inBall(random, velocitySpread);
+    if (velocitySpread > 0) start += placeIn(BallRegion{.radius = velocitySpread}, random);
     made.velocity = glm::vec3(start);
     return made;
 }

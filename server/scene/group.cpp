@@ -62,6 +62,11 @@ std::vector<Sphere> fromFile(Check& check, const v1::Group& message, const Group
     return fromLammps(check, message.lammps(), *context.directory, std::move(input), lines);
 }
 
+double longestSide(const Bounds& bounds) {
+    const glm::dvec3 side = bounds.max - bounds.min;
+    return std::max({side.x, side.y, side.z});
+}
+
 // `lines`: of a file's spheres.
 std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context,
                                SourceInput input, FileLines& lines) {
@@ -72,7 +77,9 @@ std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Sce
             return fromLattice(check, message.lattice(), scene.bounds, std::move(input));
         case v1::Group::kFill:
             if (!addTaken(check, context.taken, context.occupancy)) return {};
-            return fromFill(check, message.fill(), scene, context.occupancy, std::move(input));
+            return fromFill(check, message.fill(),
+                            {.directory = context.directory, .longestSide = longestSide(scene.bounds)}, scene,
+                            context.occupancy, std::move(input));
         case v1::Group::kCsv:
         case v1::Group::kXyz:
         case v1::Group::kLammps:

@@ -36,8 +36,7 @@ std::size_t Occupancy::slotOf(const Level& level, const glm::dvec3& cell) {
 
 void Occupancy::add(const glm::dvec3& centre, double radius) {
     constexpr std::size_t fewest = 64;
-    // Class k holds the radii above typical / 2^(k+1), up to typical / 2^k.
-    const int sizeClass = std::ilogb(typical_ / radius);
+    const int sizeClass = classOf(radius);
     Level& level = levels_[sizeClass];
     level.cell = std::ldexp(2 * typical_, -sizeClass);
     level.items.push_back({centre, radius, none});
@@ -45,6 +44,14 @@ void Occupancy::add(const glm::dvec3& centre, double radius) {
     if (level.items.size() <= level.heads.size()) return link(level, level.items.size() - 1);
     level.heads.assign(std::max(fewest, 2 * level.heads.size()), none);
     for (std::size_t k = 0; k < level.items.size(); ++k) link(level, k);
+}
+
+// It is the first of its chain.
+void Occupancy::dropLast(const glm::dvec3& centre, double radius) {
+    Level& level = levels_[classOf(radius)];
+    level.heads[slotOf(level, glm::floor(centre / level.cell))] = level.items.back().next;
+    level.items.pop_back();
+    --size_;
 }
 
 // Items twice, and chains of the old and the new size.

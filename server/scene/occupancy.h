@@ -28,6 +28,8 @@ class Occupancy {
 
     // Cells and spheres visited so far, as a measure of the work. A caller may add its own work.
     [[nodiscard]] std::uint64_t work() const { return work_; }
+    // Takes away the sphere that was added last.
+    void dropLast(const glm::dvec3& centre, double radius);
     void addWork(std::uint64_t work) { work_ += work; }
 
   private:
@@ -42,6 +44,8 @@ class Occupancy {
         std::vector<Item> items;
     };
 
+    // Class k holds the radii above typical / 2^(k+1), up to typical / 2^k.
+    [[nodiscard]] int classOf(double radius) const { return std::ilogb(typical_ / radius); }
     [[nodiscard]] static std::size_t slotOf(const Level& level, const glm::dvec3& cell);
     static void link(Level& level, std::size_t item);
     [[nodiscard]] bool isFreeIn(const Level& level, const glm::dvec3& centre, double radius);

@@ -19,10 +19,10 @@ namespace {
 // Radii are larger by this share while spheres are relaxed: overlaps fall exponentially and would never end, but those
 // at the real radii end when they fall below it.
 constexpr double clearance = 1e-3;
-constexpr double skin = 0.3;         // of the radius: how far spheres move before their neighbours are found again
-constexpr double mostWork = 2e10;    // pairs of spheres: one or two minutes
-constexpr double betweenLooks = 2000;  // steps, after which jammed spheres are recognised
-constexpr double jammedFall = 0.9;   // of the energy in these steps
+constexpr double skin = 0.3;      // of the radius: how far spheres move before their neighbours are found again
+constexpr double mostWork = 8e9;  // pairs of spheres: about a minute
+constexpr std::uint64_t betweenLooks = 2000;  // steps, after which jammed spheres are recognised
+constexpr double jammedFall = 0.9;            // of the energy in these steps
 
 // The minimiser's constants are those of its authors, but for the steps: the unit of time is that in which two equal
 // spheres part.
@@ -75,7 +75,7 @@ class SoftSpheres {
             for (const std::uint32_t j : neighbours_.of(i)) {
                 const glm::dvec3 d = neighbours_.apart(place, places_[j]);
                 const double sum = radius + radii[j];
-                const double reach = (1 + clearance) * sum;
+                const double reach = (1 + clearance) * scale_ * sum;
                 const double square = glm::dot(d, d);
                 if (square >= reach * reach) continue;
                 const double distance = std::sqrt(square);
@@ -123,6 +123,9 @@ class SoftSpheres {
         }
     }
 
+    // Makes all radii smaller by this share, fixed ones included.
+    void shrink(double share) { scale_ *= 1 - share; }
+    [[nodiscard]] double scale() const { return scale_; }
     [[nodiscard]] double energy() const { return energy_; }
     // Returns the least share of the radii at which a pair touches; infinity without overlaps.
     [[nodiscard]] double share() const { return share_; }
@@ -158,6 +161,10 @@ class SoftSpheres {
     }
 
     bool list() {
+        for (glm::dvec3& place : places_)
+            for (int axis = 0; axis < 3; ++axis)
+                if (const double period = space_.periods[axis]; period > 0)
+                    place[axis] -= period * std::floor((place[axis] - space_.box.min[axis]) / period);
         listed_.assign(places_.begin(), places_.begin() + static_cast<std::ptrdiff_t>(movable_));
         return neighbours_.find(places_);
     }
@@ -169,7 +176,7 @@ class SoftSpheres {
             const double radius = neighbours_.radii()[i];
             const double distance = surface(places_[i]);
             work_ += perDistance;
-            const double overlap = (1 + clearance) * radius - distance;
+            const double overlap = (1 + clearance) * scale_ * radius - distance;
             if (!(overlap > 0)) continue;
             glm::dvec3 normal{};
             const double h = 1e-4 * radius;
@@ -192,6 +199,7 @@ class SoftSpheres {
     std::vector<glm::dvec3> forces_;
     std::vector<glm::dvec3> velocities_;
     std::vector<glm::dvec3> listed_;  // where the neighbours were found
+    double scale_ = 1;                // of the radii
     double energy_ = 0;
     double share_ = 0;
     double work_ = 0;
@@ -201,15 +209,16 @@ class SoftSpheres {
 std::vector<std::uint32_t> byCells(const std::vector<PackedSphere>& spheres, const Box& box) {
     const glm::dvec3 side = box.max - box.min;
     double width = std::max({side.x, side.y, side.z});
-    while (8 * width * width * width * static_cast<double>(spheres.size()) > 64 * side.x * side.y * side.z) width *= 0.5;
+    while (8 * width * width * width * static_cast<double>(spheres.size()) > 64 * side.x * side.y * side.z)
+        width *= 0.5;
     std::vector<std::uint32_t> order(spheres.size());
     std::iota(order.begin(), order.end(), 0U);
     std::vector<std::uint64_t> cells;
     for (const PackedSphere& sphere : spheres) {
         std::uint64_t cell = 0;
         for (int axis = 2; axis >= 0; --axis)
-            cell = (cell << 20U) + static_cast<std::uint64_t>(std::clamp(
-                                       (sphere.centre[axis] - box.min[axis]) / width, 0.0, 0x1p20 - 1));
+            cell = (cell << 20U) + static_cast<std::uint64_t>(
+                                       std::clamp((sphere.centre[axis] - box.min[axis]) / width, 0.0, 0x1p20 - 1));
         cells.push_back(cell);
     }
     std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return cells[i]; });
@@ -241,20 +250,38 @@ PackingEnd pack(Check& check, std::vector<PackedSphere>& spheres, const PackingS
     PackingEnd end;
     for (std::uint64_t step = 0;; ++step) {
         if (!soft.findForces()) return end;
-        end = {.packed = soft.share() >= enough, .share = std::clamp(soft.share(), 0.0, 1.0)};
+        const bool free = soft.share() >= enough * soft.scale();
+        end = {.packed = free && soft.scale() == 1, .share = std::clamp(soft.share(), 0.0, soft.scale())};
         first = std::max(first, soft.energy());
         const double way = std::log(std::max(soft.energy(), last) / last) / std::log(std::max(first, 2 * last) / last);
         if (!check.goesOn("packing spheres", static_cast<std::size_t>(1000 * (1 - way)), 1000)) return {};
         if (end.packed) break;
-        if (soft.work() > mostWork) return end;
-        if (step % static_cast<std::uint64_t>(betweenLooks) == 0) {
-            if (soft.energy() > jammedFall * before) return end;
+        if (free || soft.work() > mostWork) return end;
+        if (step % betweenLooks == 0) {
+            // Jammed: smaller radii tell how far it would have gone.
+            if (soft.energy() > jammedFall * before) soft.shrink(std::sqrt(soft.energy() / soft.energyOf(1)));
             before = soft.energy();
         }
         soft.move(fire);
     }
     for (std::size_t k = 0; k < order.size(); ++k) spheres[order[k]].centre = soft.places()[k];
     return end;
+}
+
+double closestPacking(const std::vector<PackedSphere>& spheres) {
+    const auto count = static_cast<double>(spheres.size());
+    double mean = 0;
+    for (const PackedSphere& sphere : spheres) mean += sphere.radius / count;
+    double square = 0;
+    double cube = 0;
+    for (const PackedSphere& sphere : spheres) {
+        const double off = sphere.radius / mean - 1;
+        square += off * off / count;
+        cube += off * off * off / count;
+    }
+    const double deviation = std::sqrt(square);
+    // The skewness times the square of the deviation is cube / deviation.
+    return 0.634 + 0.0658 * deviation + (deviation > 0 ? 0.0857 * cube / deviation : 0);
 }
 
 std::size_t packingBytesPerSphere() {

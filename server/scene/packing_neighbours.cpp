@@ -21,7 +21,8 @@ PackingNeighbours::PackingNeighbours(std::vector<double> radii, std::size_t mova
                                      const PackingSpace& space)
     : radii_(std::move(radii)), movable_(movable), reach_(reach), space_(space) {
     for (int axis = 0; axis < 3; ++axis)
-        if (space.periods[axis] > 0) inversePeriods_[axis] = 1 / space.periods[axis];
+        halfPeriods_[axis] =
+            space.periods[axis] > 0 ? 0.5 * space.periods[axis] : std::numeric_limits<double>::infinity();
     std::map<int, std::vector<std::uint32_t>, std::greater<>> byExponent;
     for (std::uint32_t i = 0; i < radii_.size(); ++i) byExponent[std::ilogb(radii_[i])].push_back(i);
     for (auto& [exponent, members] : byExponent) {
@@ -63,8 +64,7 @@ std::array<int, 3> PackingNeighbours::cellAt(const SizeClass& one, const glm::dv
     std::array<int, 3> cell{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        double x = place[axis] - space_.box.min[axis];
-        if (space_.periods[axis] > 0) x -= space_.periods[axis] * std::floor(x * inversePeriods_[axis]);
+        const double x = place[axis] - space_.box.min[axis];
         cell[k] = static_cast<int>(std::clamp(x * one.cellsPerLength[axis], 0.0, one.cells[k] - 1.0));
     }
     return cell;
@@ -82,13 +82,6 @@ void PackingNeighbours::sort(SizeClass& one, std::span<const glm::dvec3> places)
     for (std::size_t m = one.members.size(); m-- > 0;) one.sorted[--one.first[one.cellOf[m] + 1]] = one.members[m];
     for (std::size_t k = 0; k + 1 < one.first.size(); ++k) one.first[k] = one.first[k + 1];
     one.first.back() = static_cast<std::uint32_t>(one.members.size());
-}
-
-glm::dvec3 PackingNeighbours::apart(const glm::dvec3& a, const glm::dvec3& b) const {
-    glm::dvec3 d = a - b;
-    for (int axis = 0; axis < 3; ++axis)
-        d[axis] -= space_.periods[axis] * std::floor(d[axis] * inversePeriods_[axis] + 0.5);
-    return d;
 }
 
 void PackingNeighbours::findIn(const SizeClass& one, std::uint32_t i, bool same, std::span<const glm::dvec3> places) {
@@ -111,8 +104,8 @@ void PackingNeighbours::findIn(const SizeClass& one, std::uint32_t i, bool same,
     for (std::size_t z = 0; z < count[2]; ++z)
         for (std::size_t y = 0; y < count[1]; ++y)
             for (std::size_t x = 0; x < count[0]; ++x) {
-                const auto slot = static_cast<std::size_t>(
-                    (along[2][z] * one.cells[1] + along[1][y]) * one.cells[0] + along[0][x]);
+                const auto slot =
+                    static_cast<std::size_t>((along[2][z] * one.cells[1] + along[1][y]) * one.cells[0] + along[0][x]);
                 for (std::uint32_t m = one.first[slot]; m < one.first[slot + 1]; ++m) {
                     const std::uint32_t j = one.sorted[m];
                     if ((same && j >= i) || (i >= movable_ && j >= movable_)) continue;

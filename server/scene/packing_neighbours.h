@@ -26,7 +26,8 @@ class PackingNeighbours {
         std::uint32_t sphere = 0;
         std::uint32_t surface = 0;
     };
-    // Finds them at these places. Returns false if there are more than mostPairs for each sphere.
+    // Finds them at these places, which are in the box along periodic axes. Returns false if there are more than
+    // mostPairs for each sphere.
     bool find(std::span<const glm::dvec3> places);
 
     // Returns the spheres near sphere `i`; each pair is found from one of its spheres.
@@ -35,17 +36,25 @@ class PackingNeighbours {
     }
     [[nodiscard]] const std::vector<NearSurface>& atSurfaces() const { return atSurfaces_; }
     [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
-    // Returns the vector from b to the nearest image of a.
-    [[nodiscard]] glm::dvec3 apart(const glm::dvec3& a, const glm::dvec3& b) const;
-    // Returns the work since it was made: about one for each pair of spheres compared, more for distances from surfaces.
+    // Returns the vector from b to the nearest image of a. Both are at most half a period outside the box.
+    [[nodiscard]] glm::dvec3 apart(const glm::dvec3& a, const glm::dvec3& b) const {
+        glm::dvec3 d = a - b;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (d[axis] > halfPeriods_[axis]) d[axis] -= space_.periods[axis];
+            if (d[axis] < -halfPeriods_[axis]) d[axis] += space_.periods[axis];
+        }
+        return d;
+    }
+    // Returns the work since it was made: about one for each pair of spheres compared, more for distances from
+    // surfaces.
     [[nodiscard]] double work() const { return work_; }
 
   private:
     // The spheres whose radii are within a factor of two.
     struct SizeClass {
         std::vector<std::uint32_t> members{};
-        glm::dvec3 cellsPerLength{};      // 1/m
-        std::array<int, 3> cells{};       // along each axis
+        glm::dvec3 cellsPerLength{};       // 1/m
+        std::array<int, 3> cells{};        // along each axis
         std::vector<std::uint32_t> first;  // of each cell in `sorted`, and the end
         std::vector<std::uint32_t> sorted;
         std::vector<std::uint32_t> cellOf;  // of `members`
@@ -60,7 +69,7 @@ class PackingNeighbours {
     std::size_t movable_;
     double reach_;
     const PackingSpace& space_;
-    glm::dvec3 inversePeriods_{};
+    glm::dvec3 halfPeriods_{};        // infinity for axes that are not periodic
     std::vector<SizeClass> classes_;  // by falling radius
     std::vector<std::uint32_t> first_;
     std::vector<std::uint32_t> others_;

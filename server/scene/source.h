@@ -12,6 +12,7 @@
 #include "scene/occupancy.h"
 #include "scene/radius_distribution.h"
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {
@@ -51,9 +52,10 @@ std::vector<Sphere> fromXyz(Check& check, const v1::Xyz& xyz, const std::filesys
 std::vector<Sphere> fromLammps(Check& check, const v1::Lammps& lammps, const std::filesystem::path& directory,
                                SourceInput input, FileLines& lines);
 
-// Places spheres clear of the scene's obstacles and of `taken`, and adds them to `taken`. Refuses if free places become
-// too hard to find. A region with the whole length of a periodic axis is filled across the seam.
-std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const Scene& scene, Occupancy& taken,
-                             SourceInput input);
+// Places spheres clear of the scene's obstacles and of `taken`, which has the scene's spheres, and adds them to
+// `taken`. Packs them where places at random do not suffice, and refuses if they jam. A box with the whole length of a
+// periodic axis is filled across the seam. `shapes`: the surroundings of a mesh.
+std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const ShapeInput& shapes, const Scene& scene,
+                             Occupancy& taken, SourceInput input);
 
 }  // namespace spherule::scene

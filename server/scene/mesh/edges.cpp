@@ -164,9 +164,7 @@ void checkClosed(Check& check, const MeshBytes& from, const Mesh& mesh, double s
                            fmt::format("has neighbours that face opposite ways at {} edges, the first {}; turn all "
                                        "normals outward",
                                        count, firstWhere(turned)));
-    double volume = 0;
-    for (std::uint32_t t = 0; t < mesh.corners.size(); ++t)
-        volume += glm::dot(mesh.corner(t, 0), glm::cross(mesh.corner(t, 1), mesh.corner(t, 2))) / 6;
+    const double volume = mesh.volume();
     if (!(volume > 0))
         from.refuse(check, "",
                     fmt::format("encloses a volume of {:.3g} m³, because its normals point inward; turn "

@@ -104,6 +104,13 @@ std::size_t Mesh::parts() const {
     return std::max(perPatch * patches.size(), patches.size() + meets + vertices.size());
 }
 
+double Mesh::volume() const {
+    double volume = 0;
+    for (std::uint32_t t = 0; t < corners.size(); ++t)
+        volume += glm::dot(corner(t, 0), glm::cross(corner(t, 1), corner(t, 2))) / 6;
+    return volume;
+}
+
 double Mesh::distance(const glm::dvec3& point) const {
     std::call_once(treeMade_, [&] { tree_ = std::make_unique<TriangleTree>(*this); });
     return tree_->distance(point);

@@ -13,13 +13,15 @@
 #include "scene/mesh/triangles.h"
 
 namespace spherule::v1 {
+class Mesh;
 class Obstacle;
-}
+}  // namespace spherule::v1
 
 namespace spherule::scene {
 
 class Shape;
 class TriangleTree;
+struct ShapeInput;
 
 // Triangles with their edges and patches, as spheres meet them. Coordinates (m) are relative to the centre of their
 // box. Immutable; scenes share it.
@@ -71,6 +73,8 @@ class Mesh {
     // Returns the distance of a point from the mesh (m); negative in a solid.
     [[nodiscard]] double distance(const glm::dvec3& point) const;
     [[nodiscard]] bool closed() const { return form != Form::Sheet; }
+    // Returns the volume inside (m^3), negative if the normals point inward. Only for closed triangles.
+    [[nodiscard]] double volume() const;
     // Returns a corner of a triangle.
     [[nodiscard]] const glm::dvec3& corner(std::uint32_t triangle, unsigned k) const {
         return vertices[corners[triangle][k]];
@@ -100,6 +104,10 @@ class Mesh {
 
 // An obstacle of triangles. `message` gives it in scenes: its mesh or its height field.
 std::shared_ptr<const Shape> meshShape(std::shared_ptr<const Mesh> mesh, const v1::Obstacle& message);
+
+// Reads the mesh, which is the field `here` of the scene. Returns null if it is refused.
+std::shared_ptr<const Shape> readMesh(Check& check, const v1::Mesh& message, const std::string& here,
+                                      const ShapeInput& input);
 
 // The same without a message, which a scene cannot be written with. Null if the triangles are refused.
 std::shared_ptr<const Shape> meshShape(Triangles triangles, Mesh::Form form);

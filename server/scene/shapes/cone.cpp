@@ -24,7 +24,7 @@ class Cone final : public Shape {
     [[nodiscard]] std::uint32_t parts() const override { return hollow_ ? partsAroundAxis + 2 : 1; }
     [[nodiscard]] double distance(const glm::dvec3& point) const override {
         const glm::dvec3 x = ends_.frame().inside(point);
-        const glm::dvec2 p(std::hypot(x.x, x.y), x.z);
+        const glm::dvec2 p(std::sqrt(x.x * x.x + x.y * x.y), x.z);
         const double h = ends_.half();
         const glm::dvec2 corners[] = {{0, -h}, {low_, -h}, {high_, h}, {0, h}};
         const glm::dvec2 side = corners[2] - corners[1];

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "scene/check.h"
 #include "scene/shapes.h"
@@ -26,8 +27,8 @@ class Cylinder final : public Shape {
         const double beyondSide = glm::length(way - along * axis()) - radius_;
         const double beyondEnd = std::abs(along) - halfLength();
         if (hollow_) return -std::max(beyondSide, beyondEnd);
-        return std::max(beyondSide, beyondEnd) > 0 ? std::hypot(std::max(beyondSide, 0.0), std::max(beyondEnd, 0.0))
-                                                   : std::max(beyondSide, beyondEnd);
+        if (std::max(beyondSide, beyondEnd) <= 0) return std::max(beyondSide, beyondEnd);
+        return glm::length(glm::dvec2(std::max(beyondSide, 0.0), std::max(beyondEnd, 0.0)));
     }
     [[nodiscard]] double farthest(const glm::dvec3& from) const override {
         return glm::distance(centre(), from) + std::hypot(radius_, halfLength());

@@ -94,11 +94,12 @@ std::optional<std::string> bytesOf(Check& check, v1::Mesh& mesh, const std::stri
     return bytes;
 }
 
-ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field, const ShapeInput& input) {
+}  // namespace
+
+ShapePointer readMesh(Check& check, const v1::Mesh& message, const std::string& here, const ShapeInput& input) {
     v1::Obstacle kept;
     v1::Mesh& mesh = *kept.mutable_mesh();
-    mesh = message.mesh();
-    const std::string here = at(field, "mesh");
+    mesh = message;
     double scale = 1;
     if (mesh.scale() != 0) scale = check.upTo(mesh.scale(), 1e9, at(here, "scale"), " m per unit");
     if (mesh.solid() && mesh.hollow()) check.refuse(at(here, "hollow"), "is true with `solid`; leave one of them out");
@@ -119,8 +120,6 @@ ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& 
     return meshShape(made, kept);
 }
 
-}  // namespace
-
 ShapePointer meshShape(std::shared_ptr<const Mesh> mesh, const v1::Obstacle& message) {
     return std::make_shared<MeshShape>(std::move(mesh), message);
 }
@@ -136,7 +135,8 @@ ShapePointer meshShape(Triangles triangles, Mesh::Form form) {
 
 const ShapeType shapesMeshes{
     .field = v1::Obstacle::kMesh,
-    .read = read,
+    .read = [](Check& check, const v1::Obstacle& message, const std::string& field,
+               const ShapeInput& input) { return readMesh(check, message.mesh(), at(field, "mesh"), input); },
     .example =
         [](double top) {
             return meshShape(boxTriangles({0, 0, top - 1}, {1, 1, top}), Mesh::Form::Solid);

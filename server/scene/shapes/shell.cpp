@@ -28,7 +28,7 @@ class Shell final : public Shape {
     }
     [[nodiscard]] double distance(const glm::dvec3& point) const override {
         const glm::dvec3 x = along_.frame().inside(point);
-        const glm::dvec2 p(std::hypot(x.x, x.y), x.z);
+        const glm::dvec2 p(std::sqrt(x.x * x.x + x.y * x.y), x.z);
         const glm::dvec2 from(low_, -half());
         const glm::dvec2 line = glm::dvec2(high_, half()) - from;
         return glm::distance(p, from + std::clamp(glm::dot(p - from, line) / glm::dot(line, line), 0.0, 1.0) * line);
