@@ -7,7 +7,10 @@ PARAMETERS
 
 BUFFER(coherent, uint, counters)
 
+#include "shared/movers.h"
+
 KERNEL(1u) {
+    if (moversAlone()) return;
     counters[COUNTER_RESTING] = counters[COUNTER_RESTING] & RESTS;
     for (uint axis = 0u; axis < 3u; ++axis) {
         uint high = counters[COUNTER_DRIFT_BOX + axis];

@@ -1,7 +1,7 @@
 // Marks the blocks that hold an awake sphere, by the number of the substep. It marks the sphere's block on its own
 // level and on the coarser ones, whose blocks have its pairs with larger spheres. It does not mark finer levels,
 // because the sphere's own block has these pairs. A smaller sphere that it wakes marks its own block in the next
-// substep. A sphere that is in no list marks no block. Also marks the blocks that hold a restless sphere (sleep.comp):
+// substep. A sphere that is in no list marks no block. Counts the awake spheres. Also marks the blocks that hold a restless sphere (sleep.comp):
 // an awake one that has not been quiet for the sleep time and carries others.
 #include "shared/kernel.h"
 #include "shared/layout.h"
@@ -16,19 +16,21 @@ PARAMETERS
 
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, listReference)  // position for which the lists were built: it gives the sphere's cell
-BUFFER(readonly, uint, counters)
+BUFFER(coherent, uint, counters)
 BUFFER(coherent, uint, activeBlock)
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, restReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(coherent, uint, restlessBlock)
 BUFFER(readonly, vec4, unheldVelocity)
+BUFFER(readonly, uint, isMover)
 
 // A sphere with fewer contacts lies on others. It may roll about for long without changing what they carry.
 #define RESTLESS_PAIRS 5.0f
 
 KERNEL(params.spheres) {
     if (!isAwake(velocity[invocation])) return;
+    if (HAS(MOVERS) && SEEN(counters[COUNTER_AWAKE]) <= params.mostMovers) atomicAdd(counters[COUNTER_AWAKE], 1u);
     vec4 reference = listReference[invocation];
     uint levels = HAS(LEVELS) ? params.levels : 1u;
     if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;
@@ -38,7 +40,8 @@ KERNEL(params.spheres) {
     if (HAS(BALANCED) && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
         quietTimeOf(restReference[idOf(idAndMaterial[invocation])]) < params.sleepTime)
         atomicExchange(restlessBlock[block], substep);
-    atomicExchange(activeBlock[block], substep);
+    // The lists of its own level have no pairs of a mover.
+    if (!HAS(MOVERS) || isMover[invocation] == 0u) atomicExchange(activeBlock[block], substep);
     for (uint level = own + 1u; level < levels; ++level)
         atomicExchange(activeBlock[blockAt(vec3(reference), level)], substep);
 }

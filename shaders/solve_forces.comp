@@ -28,6 +28,8 @@ BUFFER(restrict, float, contactY)
 BUFFER(restrict, float, contactZ)
 BUFFER(readonly, uint, counters)
 BUFFER(readonly, ContactParams, contactParams)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 PRIVATE(vec3, displacement)
 PRIVATE(bool, touches)

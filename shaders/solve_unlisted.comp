@@ -19,6 +19,9 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uint, bundles)
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 #include "shared/bundle_words.h"
 #include "shared/contact.h"

@@ -19,6 +19,8 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 #include "shared/bundle_words.h"
 

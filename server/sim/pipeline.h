@@ -59,8 +59,8 @@ class Pipeline {
     // Returns the state that was kept last, when there were `spheres` spheres. Waits for the device.
     [[nodiscard]] SlotState keptState(std::uint32_t spheres);
 
-    // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. The
-    // lists are rebuilt in the next substep. Call setParameters() next.
+    // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. Their
+    // lists are built in the next substep. Call setParameters() next.
     void append(const State& born, std::span<const std::uint8_t> materials, std::span<const std::uint32_t> handles);
     // Removes the spheres with these handles, wakes the sleepers within their reach, and rebuilds the lists. Call
     // setParameters() next. Waits for the device. Refused, with the state unchanged, if there is no memory for it.
@@ -75,7 +75,7 @@ class Pipeline {
     void takeFrom(Pipeline& before, const NewKey& newKey);
     // Wakes the spheres with these handles. Waits for the device.
     void wake(std::span<const std::uint32_t> handles);
-    // Makes new lists in the next substep.
+    // Makes new lists of all spheres in the next substep.
     void requestRebuild();
 
     void substep(bool observed = false);
@@ -166,6 +166,7 @@ class Pipeline {
     void takeWallMemory(Pipeline& before, const NewKey& newKey);
     void rebuildLists();
     void expectRebuild();
+    void placeFarSlot();
     // Launches the kernels of a rebuild in the next substeps: the speeds, or the length of the substep, have changed.
     void awaitSpeeds() { unforeseen_ = substepsAhead; }
     void chooseLaunches();
@@ -213,6 +214,8 @@ class Pipeline {
     unsigned unforeseen_ = 0;      // substeps for which COUNTER_REBUILD does not tell whether a rebuild may be due
     bool launchesRebuild_ = true;  // in this substep
     bool listsMayBeMissing_ = true;
+    bool moversMayExist_ = true;
+    std::uint32_t unlistedBirths_ = 0;  // spheres that were added since the last substep
     std::uint64_t launches_ = 0;
 };
 

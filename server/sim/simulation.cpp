@@ -340,7 +340,12 @@ compute::Buffer* Simulation::buffer(Array array) {
 
 void Simulation::readCounters() {
     const auto words = pipeline_->read<std::uint32_t>(Array::Counters);
-    counters_ = {.pairs = words[COUNTER_PAIRS],
+    // The pairs of movers have two rooms.
+    const std::uint32_t pairs =
+        words[COUNTER_MOVER_LISTS] == 0
+            ? words[COUNTER_PAIRS]
+            : words[COUNTER_ALL_PAIRS] + 2 * (words[COUNTER_PAIRS] - words[COUNTER_MOVER_PAIRS]);
+    counters_ = {.pairs = pairs,
                  .unlisted = words[COUNTER_UNLISTED],
                  .sampled = words[COUNTER_SAMPLED],
                  .cutShort = words[COUNTER_CUT_SHORT],

@@ -7,16 +7,18 @@ uint levelOf(float radius) {
     return level;
 }
 
+uint cellAtLevel(vec3 point, uint level) {
+    uvec4 cells = cellsOf(level);
+    if (!finite3(point)) return firstCell(cells);
+    vec3 p = point * inverseCellsOf(level);
+    return cellIndex(cells, wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z));
+}
+
 // The cell of a sphere on its level. A sphere that is removed has a negative radius until the lists are rebuilt. It comes
 // after all cells, so that it is behind the other spheres then, and the lists leave it out.
 uint cellOf(vec4 sphere) {
     if (storedRadius(sphere) < 0.0f) return allCells();
-    vec3 point = vec3(sphere);
-    if (!finite3(point)) return 0u;
-    uint level = levelOf(storedRadius(sphere));
-    uvec4 cells = cellsOf(level);
-    vec3 p = point * inverseCellsOf(level);
-    return cellIndex(cells, wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z));
+    return cellAtLevel(vec3(sphere), levelOf(storedRadius(sphere)));
 }
 
 // The number of the point's block of 4 x 4 x 4 cells among the blocks of all levels.
