@@ -22,21 +22,11 @@ BUFFER(readonly, uint, leftBlock)
 #include "shared/carried.h"
 #include "shared/contact_owner.h"
 #include "shared/movers.h"
+#include "shared/left_block.h"
 
 // A thread reads so many pairs, then adds to their counters, then writes their rows. Between the reads and writes of
 // each pair, an atomic addition would make a CPU wait for them.
 #define AT_ONCE (THREADS == 1u ? 32u : 1u)
-
-// Returns true if a sphere has left one of the bundle's blocks to become a mover, or was within a cell of it.
-bool wasLeft(uint bundle) {
-    uvec4 cells = cellsOf(0u);
-    for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) {
-        BlockPlace block = blockOfBundle(bundle, 0u, part);
-        if (block.exists && leftBlock[blockNumber(cells, block.x, block.y, block.z)] == counters[COUNTER_REBUILDS])
-            return true;
-    }
-    return false;
-}
 
 bool endsHere(uvec2 pair) {
     return isMover[pair.x] != 0u || isMover[SECOND_OF(pair)] != 0u;

@@ -1,5 +1,5 @@
-// Sets whether each bundle is active: whether one of its blocks or a block around it holds an awake sphere. Active
-// bundles have all pairs of the awake spheres, and all pairs of their neighbours. The solvers skip the others.
+// Sets the bits of each bundle: whether one of its blocks or a block around it holds an awake sphere, and one that may wake
+// others. Active bundles have all pairs of the awake spheres, and all pairs of their neighbours. The solvers skip the others.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -9,6 +9,7 @@ PARAMETERS
 
 BUFFER(readonly, uint, counters)
 BUFFER(readonly, uint, activeBlock)
+BUFFER(readonly, uint, wakerBlock)
 BUFFER(restrict, uint, bundles)
 
 // Place `k` (0 .. 2) of a place and its two neighbours on a ring of `count` places.
@@ -18,26 +19,29 @@ uint around(uint at, uint k, uint count) {
     return shifted - 1u == count ? 0u : shifted - 1u;
 }
 
-SHARED(uint, anyAwake)
+SHARED(uint, found)
 
 BUNDLE_KERNEL(params.bundles) {
     if (bundles[invocation * BUNDLE_WORDS + 1u] == 0u) return;  // no pairs
     uint level = levelOfBundle(invocation);
     uvec4 cells = cellsOf(level);
     uint substep = counters[COUNTER_SUBSTEPS];
-    if (FIRST_THREAD) anyAwake = 0u;
+    if (FIRST_THREAD) found = 0u;
     BARRIER
-    bool awake = false;
-    for (uint part = 0u; part < BLOCKS_PER_BUNDLE && !awake; ++part) {
+    uint bits = 0u;
+    for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) {
         BlockPlace block = blockOfBundle(invocation, level, part);
-        for (uint k = THREAD; k < 27u && block.exists && !awake; k += THREADS) {
+        for (uint k = THREAD; k < 27u && block.exists && bits != (ACTIVE | WAKERS); k += THREADS) {
             uint x = around(block.x, k % 3u, cells.x / 4u);
             uint y = around(block.y, k / 3u % 3u, cells.y / 4u);
             uint z = around(block.z, k / 9u, cells.z / 4u);
-            awake = activeBlock[blockNumber(cells, x, y, z)] == substep;
+            uint number = blockNumber(cells, x, y, z);
+            if (activeBlock[number] != substep) continue;
+            bits = bits | ACTIVE;
+            if (wakerBlock[number] == substep) bits = bits | WAKERS;
         }
     }
-    if (awake) atomicOr(anyAwake, 1u);
+    if (bits != 0u) atomicOr(found, bits);
     BARRIER
-    if (FIRST_THREAD) bundles[invocation * BUNDLE_WORDS + 2u] = anyAwake;
+    if (FIRST_THREAD) bundles[invocation * BUNDLE_WORDS + 2u] = found;
 }

@@ -1,7 +1,8 @@
-// Marks the blocks that hold an awake sphere, by the number of the substep. It marks the sphere's block on its own
+// Marks the blocks that hold an awake sphere, or one that may wake others, by the number of the substep. It marks the sphere's block on its own
 // level and on the coarser ones, whose blocks have its pairs with larger spheres. It does not mark finer levels,
 // because the sphere's own block has these pairs. A smaller sphere that it wakes marks its own block in the next
-// substep. A sphere that is in no list marks no block. Counts the awake spheres. Also marks the blocks that hold a restless sphere (sleep.comp):
+// substep. A sphere that is in no list marks no block. Counts the spheres that soon become movers
+// (shared/movers.h), and the awake movers. Also marks the blocks that hold a restless sphere (sleep.comp):
 // an awake one that has not been quiet for the sleep time and carries others.
 #include "shared/kernel.h"
 #include "shared/layout.h"
@@ -18,6 +19,7 @@ BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, listReference)  // position for which the lists were built: it gives the sphere's cell
 BUFFER(coherent, uint, counters)
 BUFFER(coherent, uint, activeBlock)
+BUFFER(coherent, uint, wakerBlock)
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, restReference)
 BUFFER(readonly, uint, idAndMaterial)
@@ -25,23 +27,36 @@ BUFFER(coherent, uint, restlessBlock)
 BUFFER(readonly, vec4, unheldVelocity)
 BUFFER(readonly, uint, isMover)
 
+#include "shared/leaving.h"
+#include "shared/wake.h"
+
 // A sphere with fewer contacts lies on others. It may roll about for long without changing what they carry.
 #define RESTLESS_PAIRS 5.0f
 
 KERNEL(params.spheres) {
-    if (!isAwake(velocity[invocation])) return;
-    if (HAS(MOVERS) && SEEN(counters[COUNTER_AWAKE]) <= params.mostMovers) atomicAdd(counters[COUNTER_AWAKE], 1u);
+    vec4 v = velocity[invocation];
+    if (!isAwake(v)) return;
     vec4 reference = listReference[invocation];
+    bool mover = HAS(MOVERS) && isMover[invocation] != 0u;
+    if (mover) atomicAdd(counters[COUNTER_AWAKE_MOVERS], 1u);
+    if (HAS(MOVERS) && !mover && SEEN(counters[COUNTER_LEAVING]) <= params.mostMovers &&
+        mostMoved(vec3(position[invocation]) - vec3(reference), vec3(v)) > LEAVES_SOON * params.rebuildMove)
+        atomicAdd(counters[COUNTER_LEAVING], 1u);
     uint levels = HAS(LEVELS) ? params.levels : 1u;
     if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;
     uint substep = counters[COUNTER_SUBSTEPS];
     uint own = levelOf(storedRadius(position[invocation]));
+    vec4 rest = restReference[idOf(idAndMaterial[invocation])];
     uint block = blockAt(vec3(reference), own);
     if (HAS(BALANCED) && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
-        quietTimeOf(restReference[idOf(idAndMaterial[invocation])]) < params.sleepTime)
+        quietTimeOf(rest) < params.sleepTime)
         atomicExchange(restlessBlock[block], substep);
+    bool wakes = canWake(v, rest);
     // The lists of its own level have no pairs of a mover.
-    if (!HAS(MOVERS) || isMover[invocation] == 0u) atomicExchange(activeBlock[block], substep);
-    for (uint level = own + 1u; level < levels; ++level)
-        atomicExchange(activeBlock[blockAt(vec3(reference), level)], substep);
+    uint first = mover ? own + 1u : own;
+    for (uint level = first; level < levels; ++level) {
+        uint marked = level == own ? block : blockAt(vec3(reference), level);
+        atomicExchange(activeBlock[marked], substep);
+        if (wakes) atomicExchange(wakerBlock[marked], substep);
+    }
 }

@@ -17,17 +17,14 @@ BUFFER(writeonly, uint, moverSlots)
 BUFFER(restrict, uint, isMover)
 BUFFER(coherent, uint, leftBlock)  // the last lists, by COUNTER_REBUILDS, for which a sphere left the block
 
-// A sphere leaves the lists of all spheres before it asks for new lists (shared/motion.h), at this share of the distance:
-// those that leave soon become movers together with those that leave now.
-#define LEAVES 0.5f
+#include "shared/leaving.h"
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
     if (!isAwake(v) || isMover[invocation] != 0u) return;
     vec4 reference = listReference[invocation];
     vec3 since = vec3(position[invocation]) - vec3(reference);
-    float moved = sqrt(dot3(since, since)) + (sqrt(dot3(vec3(v), vec3(v))) + params.gravityChange) * params.substep;
-    if (moved <= LEAVES * params.rebuildMove) return;
+    if (mostMoved(since, vec3(v)) <= LEAVES * params.rebuildMove) return;
     uint mover = atomicAdd(counters[COUNTER_MOVERS], 1u);
     if (mover >= counters[COUNTER_MOVER_ROOM]) {
         atomicOr(counters[COUNTER_REBUILD], REBUILD_DUE | REBUILD_ALL);

@@ -37,22 +37,23 @@ uint roomOfMoverPairs() {
     return (params.pairCapacity - min(endOfAllPairs(), params.pairCapacity)) / 2u;
 }
 
-// The spheres that may be movers now. Others may have woken since those that are awake were counted, so there is spare room.
+// The spheres that may be movers now. A sphere that was hit since those that leave were counted is not among them, so
+// there is spare room.
 uint mostMoversNow() {
-    uint more = counters[COUNTER_AWAKE] + min(counters[COUNTER_BORN], params.mostMovers);
+    uint more = counters[COUNTER_LEAVING] + min(counters[COUNTER_BORN], params.mostMovers);
     return counters[COUNTER_MOVERS] + more + more / 4u + 16u;
 }
 
-// Returns true if it is enough to build lists of the movers and of the spheres that become movers: at most all that are
-// awake.
+// Returns true if it is enough to build lists of the movers and of the spheres that become movers.
 bool moversAreEnough() {
     if (!HAS(MOVERS) || (counters[COUNTER_REBUILD] & REBUILD_ALL) != 0u) return false;
     vec3 drift = driftVelocity();
+    bool drifts = drift.x != 0.0f || drift.y != 0.0f || drift.z != 0.0f;
     bool holds = counters[COUNTER_REBUILDS] != 0u && counters[COUNTER_UNLISTED] == 0u &&
-                 counters[COUNTER_SAMPLED] == 0u && counters[COUNTER_RESTING] != 0u && dot3(drift, drift) == 0.0f;
+                 counters[COUNTER_SAMPLED] == 0u && counters[COUNTER_RESTING] != 0u && !drifts;
     uint movers = counters[COUNTER_MOVERS];
-    uint awake = counters[COUNTER_AWAKE];
-    if (!holds || awake > params.mostMovers || movers > 2u * awake + FEW_SLEEPING_MOVERS) return false;
+    uint awake = counters[COUNTER_AWAKE_MOVERS];
+    if (!holds || counters[COUNTER_LEAVING] > params.mostMovers || movers > 2u * awake + FEW_SLEEPING_MOVERS) return false;
     uint most = mostMoversNow();
     bool fits = most <= params.mostMovers && most * PAIRS_OF_MOVER <= roomOfMoverPairs() &&
                 counters[COUNTER_MOVER_LISTS] < MOST_MOVER_LISTS;
@@ -108,6 +109,7 @@ KERNEL(1u) {
     }
     counters[COUNTER_SUBSTEPS] = counters[COUNTER_SUBSTEPS] + 1u;
     bundles[params.bundles * BUNDLE_WORDS + WORD_FASTEST] = 0u;
+    bundles[params.bundles * BUNDLE_WORDS + WORD_FASTEST_MOVER] = 0u;
     bool due = (counters[COUNTER_REBUILD] & REBUILD_DUE) != 0u || counters[COUNTER_BORN] != 0u;
     bool soon = false;
     bool all = !moversAreEnough();
@@ -141,7 +143,7 @@ KERNEL(1u) {
     if (!HAS(BALANCED) && (word & REBUILD_SOON) != 0u) kept = kept | REBUILD_WAS_SOON;
     counters[COUNTER_REBUILD] = kept | (soon ? REBUILD_SOON : 0u);
     if (rebuild) {
-        counters[COUNTER_MOVERS_ALONE] = alone ? 1u : 0u;
+        counters[COUNTER_MOVERS_ALONE] = alone ? LISTS_BEGUN : 0u;
         if (alone)
             beginMoverLists();
         else
@@ -153,5 +155,6 @@ KERNEL(1u) {
         counters[COUNTER_RESTORED] = 0u;
         counters[COUNTER_REBUILDS] = counters[COUNTER_REBUILDS] + 1u;
     }
-    counters[COUNTER_AWAKE] = 0u;  // mark_active.comp counts them
+    counters[COUNTER_LEAVING] = 0u;  // mark_active.comp counts them
+    counters[COUNTER_AWAKE_MOVERS] = 0u;
 }

@@ -47,7 +47,7 @@ void readHeldTorque() {
 bool beginBundle(uint bundle) {
     if (!hasList(bundle) || listedPairs(bundle) == 0u || (HAS(SLEEP) && !isActive(bundle))) return false;
     remembered = firstRemembered();
-    contactReach = 2.0f * fastestSpeed() * params.substep + SLOP * params.radius;
+    contactReach = 2.0f * fastestSpeed(bundle) * params.substep + SLOP * params.radius;
     if (HAS(CONTACT_SUMS)) beginContactSums();
     return true;
 }

@@ -28,8 +28,6 @@ BUFFER(restrict, float, contactY)
 BUFFER(restrict, float, contactZ)
 BUFFER(readonly, uint, counters)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(readonly, uint, cellOrder)
-BUFFER(readonly, uint, isMover)
 
 PRIVATE(vec3, displacement)
 PRIVATE(bool, touches)
@@ -104,8 +102,10 @@ void visitPair(uint a, uint b) {
 
 #include "shared/bundle_words.h"
 #include "shared/contact_memory.h"
+#define NO_MOVERS  // in `accurate`, no sphere sleeps
 #include "shared/visit_range.h"
 #include "shared/group.h"
+#undef NO_MOVERS
 
 void endBundle(uint bundle) {
     if (HAS(CONTACT_SUMS)) endContactSums(bundle);

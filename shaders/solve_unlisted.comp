@@ -45,7 +45,7 @@ void visitPair(uint a, uint b) {
 KERNEL(bundlesOfPhase()) {
     uint bundle = bundleOfPhase(invocation);
     if (hasList(bundle)) return;
-    contactReach = 2.0f * fastestSpeed() * params.substep + SLOP * params.radius;
+    contactReach = 2.0f * fastestSpeed(bundle) * params.substep + SLOP * params.radius;
     if (HAS(CONTACT_SUMS)) beginContactSums();
     visitBundle(bundle, firstPair(bundle));
     if (HAS(CONTACT_SUMS)) endContactSums(bundle);

@@ -12,7 +12,7 @@ void Pipeline::rebuildLists() {
     const auto before = read<std::uint32_t>(Array::Counters);
     launchesRebuild_ = listsMayBeMissing_ = moversMayExist_ = true;
     run(substep_, LaunchSet::Rebuild);
-    for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS, COUNTER_AWAKE})
+    for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS, COUNTER_LEAVING, COUNTER_AWAKE_MOVERS})
         write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
     listsPending_ = false;
 }

@@ -11,7 +11,7 @@
 // The includer binds `bundles` if it reads a bundle's pairs.
 
 uint levelOfPhase() {
-    return phase >> 3u;
+    return (phase >> 3u) & 0xfu;
 }
 
 uint bundlesOfColour(uint level) {

@@ -1,4 +1,14 @@
-// The slots of entries (shared/movers.h). The includer binds `counters`, `cellOrder` and `isMover`.
+// The slots of entries (shared/movers.h). The includer binds `counters`, `cellOrder` and `isMover`, or defines NO_MOVERS
+// if it belongs to no scene with movers.
+#ifdef NO_MOVERS
+uint slotOfEntry(uint entry) {
+    return entry;
+}
+
+bool isOldEntry(uint a, uint b) {
+    return false;
+}
+#else
 #include "shared/movers.h"
 
 bool isEntryOfMover(uint entry) {
@@ -13,3 +23,4 @@ uint slotOfEntry(uint entry) {
 bool isOldEntry(uint a, uint b) {
     return isEntryOfMover(a) && !isEntryOfMover(b) && isMover[b] != 0u;
 }
+#endif

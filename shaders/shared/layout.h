@@ -190,7 +190,7 @@ struct SphereStatistics {
 #define COUNTER_SUNK 36u        // spheres in sinks at the end of a step
 #define COUNTER_CUT_SHORT 37u   // bundles or groups of cells whose lists the renderer cut short, since the start
 #define COUNTER_OBSTACLE_PATH 38u // bits of a float (m): the most that obstacles have moved since the lists were built
-#define COUNTER_AWAKE 39u       // spheres that were awake in the last substep; any number above mostMovers if more were
+#define COUNTER_LEAVING 39u     // spheres that soon become movers; any number above params.mostMovers if more do
 #define COUNTER_BORN 40u        // spheres that were added since the lists were built
 // Of the lists of movers (shared/movers.h).
 #define COUNTER_MOVERS 41u      // spheres in them
@@ -201,7 +201,8 @@ struct SphereStatistics {
 #define COUNTER_PAIR_LIMIT 46u  // where the room for the pairs of the last lists ends
 #define COUNTER_ALL_PAIRS 47u   // where the pairs of the lists of all spheres end
 #define COUNTER_MOVER_ROOM 48u  // spheres for which the lists of movers that are built have room
-#define COUNTER_WORDS 49u
+#define COUNTER_AWAKE_MOVERS 49u  // in the last substep
+#define COUNTER_WORDS 50u
 
 // Bits of COUNTER_REBUILD. The host launches the kernels of a rebuild only if one of the first three was set at the end of
 // the substep before the last one.
@@ -214,6 +215,9 @@ struct SphereStatistics {
 // Three times as many as the host is ahead: a heavy sphere that meets a light one at equal and opposite speeds makes it
 // three times as fast.
 #define SOON_SUBSTEPS 6.0f
+
+// A bit of the phase of wake.comp, above level and colour.
+#define LEAVERS 0x10000u
 
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed
@@ -258,16 +262,20 @@ struct SphereStatistics {
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
 #define UNLISTED 0xffffffffu    // pair count of a bundle without a list
+#define ACTIVE 1u               // a sphere of the bundle, or around it, is awake
+#define WAKERS 2u               // such a sphere may wake others
 #define STATISTIC_BLOCK 256u    // spheres per partial sum
 
 // The order of pairs: see shared/bundles.h.
 #define BLOCKS_PER_BUNDLE 4u
 #define HASHED_BATCHES 16u      // the hash of a pair chooses among these
 #define BATCHES 24u             // further pairs of a bundle come one by one
-#define BUNDLE_WORDS 32u        // first pair, listed pairs, active, 0, the ends of the batches, the end of all pairs
+#define BUNDLE_WORDS 32u        // first pair, listed pairs, bits ACTIVE and WAKERS, 0, the ends of the batches, the end of all pairs
 // Words behind the last bundle, for the solver, which binds as many buffers as a kernel may.
-#define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float
+#define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float;
+                                // without movers
 #define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
+#define WORD_FASTEST_MOVER 2u   // the same of movers (shared/movers.h)
 // Behind these words are rows of contact sums for each bundle and thread (shared/contact_sums.h).
 #define BUNDLE_THREADS 64u      // parts in which the statistics of a bundle are added up
 #define MOST_PAIR_THREADS 256u  // of PAIR_KERNEL

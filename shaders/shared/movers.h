@@ -19,6 +19,10 @@
 // The room that lists of movers must have for each, in pairs.
 #define PAIRS_OF_MOVER 12u
 
+// COUNTER_MOVERS_ALONE before and after list_drift.comp: until then, the lists are the old ones.
+#define LISTS_BEGUN 2u
+#define LISTS_BUILT 1u
+
 bool moversAlone() {
     return HAS(MOVERS) && counters[COUNTER_MOVERS_ALONE] != 0u;
 }

@@ -46,10 +46,13 @@ void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel) {
         }
 }
 
-void PlanBuilder::overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row) {
+void PlanBuilder::overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::uint32_t bits) {
     const std::size_t first = staged_.size();
     overPairs(stage, pass, kernel);
-    for (std::size_t k = first; k < staged_.size(); ++k) staged_[k].launch.launchRow = row;
+    for (std::size_t k = first; k < staged_.size(); ++k) {
+        staged_[k].launch.launchRow = row;
+        staged_[k].launch.phase |= bits;
+    }
 }
 
 void PlanBuilder::overLevelsOnRebuild(Stage stage, Pass pass, std::string_view kernel) {
@@ -69,7 +72,7 @@ void PlanBuilder::decidesRebuild(Stage stage, Pass pass, std::string_view kernel
 void PlanBuilder::onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row,
                             std::vector<Alias> aliases, std::uint32_t phase) {
     staged_.push_back(
-        {stage, {.pass = pass, .kernel = kernel, .phase = phase, .launchRow = row, .aliases = std::move(aliases)}});
+        {stage, {.pass = pass, .kernel = kernel, .launchRow = row, .phase = phase, .aliases = std::move(aliases)}});
 }
 
 void PlanBuilder::prefixSumOnRebuild(Stage stage, Pass pass, Array values, std::array<std::uint32_t, 2> rows,
