@@ -1,8 +1,8 @@
-// Marks the blocks that hold an awake sphere, or one that may wake others, by the number of the substep. It marks the sphere's block on its own
-// level and on the coarser ones, whose blocks have its pairs with larger spheres. It does not mark finer levels,
-// because the sphere's own block has these pairs. A smaller sphere that it wakes marks its own block in the next
-// substep. A sphere that is in no list marks no block. Counts the spheres that soon become movers
-// (shared/movers.h), and the awake movers. Also marks the blocks that hold a restless sphere (sleep.comp):
+// Marks the blocks and the groups of cells that hold an awake sphere, and the groups that hold one that may wake others,
+// by the number of the substep: on the sphere's own level and on the coarser ones, whose blocks have its pairs with
+// larger spheres. It does not mark finer levels, because the sphere's own block has these pairs. A smaller sphere that it
+// wakes marks its own block in the next substep. A sphere that is in no list marks nothing. Counts the spheres that soon
+// become movers (shared/movers.h), and the awake movers. Also marks the blocks that hold a restless sphere (sleep.comp):
 // an awake one that has not been quiet for the sleep time and carries others.
 #include "shared/kernel.h"
 #include "shared/layout.h"
@@ -19,7 +19,8 @@ BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, listReference)  // position for which the lists were built: it gives the sphere's cell
 BUFFER(coherent, uint, counters)
 BUFFER(coherent, uint, activeBlock)
-BUFFER(coherent, uint, wakerBlock)
+BUFFER(coherent, uint, activeGroup)
+BUFFER(coherent, uint, wakerGroup)
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, restReference)
 BUFFER(readonly, uint, idAndMaterial)
@@ -47,16 +48,18 @@ KERNEL(params.spheres) {
     uint substep = counters[COUNTER_SUBSTEPS];
     uint own = levelOf(storedRadius(position[invocation]));
     vec4 rest = restReference[idOf(idAndMaterial[invocation])];
-    uint block = blockAt(vec3(reference), own);
-    if (HAS(BALANCED) && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
-        quietTimeOf(rest) < params.sleepTime)
-        atomicExchange(restlessBlock[block], substep);
     bool wakes = canWake(v, rest);
-    // The lists of its own level have no pairs of a mover.
-    uint first = mover ? own + 1u : own;
-    for (uint level = first; level < levels; ++level) {
-        uint marked = level == own ? block : blockAt(vec3(reference), level);
-        atomicExchange(activeBlock[marked], substep);
-        if (wakes) atomicExchange(wakerBlock[marked], substep);
+    for (uint level = own; level < levels; ++level) {
+        uvec4 cells = cellsOf(level);
+        uvec4 place = cellPlaceAt(vec3(reference), level);
+        uint block = blockNumber(cells, place.x / 4u, place.y / 4u, place.z / 4u);
+        if (HAS(BALANCED) && level == own && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
+            quietTimeOf(rest) < params.sleepTime)
+            atomicExchange(restlessBlock[block], substep);
+        if (mover && level == own) continue;  // the lists of its own level have no pairs of a mover
+        uint group = groupNumber(cells, place.x / 2u, place.y / 2u, place.z / 2u);
+        atomicExchange(activeBlock[block], substep);
+        atomicExchange(activeGroup[group], substep);
+        if (wakes) atomicExchange(wakerGroup[group], substep);
     }
 }

@@ -16,6 +16,7 @@ namespace spherule::sim {
 namespace {
 
 constexpr std::uint32_t pairsPerSphere = 8;  // listed; a dense bed has about 6 within the margin
+constexpr std::uint32_t pairsPerMover = 6;   // in addition, for the two rooms of their pairs (shaders/shared/movers.h)
 constexpr std::uint32_t fewestPairs = 1024;
 constexpr std::uint32_t wallHistoryLimit = 8;
 
@@ -281,7 +282,8 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
         plan.pairCapacity = pairCapacity != 0
                                 ? pairCapacity
                                 : std::max(fewestPairs, pairsPerSphere * spheres) +
-                                      8 * PAIR_PADDING * static_cast<std::uint32_t>(plan.grid.levels.size());
+                                      8 * PAIR_PADDING * static_cast<std::uint32_t>(plan.grid.levels.size()) +
+                                      pairsPerMover * plan.mostMovers;
         plan.dispatchSizes = launchTable(plan);
     }
     if (features.has(Feature::Meshes)) plan.meshes = meshTablesFor(scene, radii.largest);

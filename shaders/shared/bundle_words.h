@@ -18,6 +18,10 @@ bool isActive(uint bundle) {
     return bundles[bundle * BUNDLE_WORDS + 2u] != 0u;
 }
 
+bool mayHaveSleepers(uint bundle) {
+    return (bundles[bundle * BUNDLE_WORDS + 2u] & SLEEPERS) != 0u;
+}
+
 bool hasWakers(uint bundle) {
     return (bundles[bundle * BUNDLE_WORDS + 2u] & WAKERS) != 0u;
 }

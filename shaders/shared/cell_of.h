@@ -7,11 +7,17 @@ uint levelOf(float radius) {
     return level;
 }
 
-uint cellAtLevel(vec3 point, uint level) {
+// The place of the point's cell on a level: x, y, z. Of a point that is not finite: the first one.
+uvec4 cellPlaceAt(vec3 point, uint level) {
+    if (!finite3(point)) return uvec4(0u, 0u, 0u, 0u);
     uvec4 cells = cellsOf(level);
-    if (!finite3(point)) return firstCell(cells);
     vec3 p = point * inverseCellsOf(level);
-    return cellIndex(cells, wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z));
+    return uvec4(wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z), 0u);
+}
+
+uint cellAtLevel(vec3 point, uint level) {
+    uvec4 place = cellPlaceAt(point, level);
+    return cellIndex(cellsOf(level), place.x, place.y, place.z);
 }
 
 // The cell of a sphere on its level. A sphere that is removed has a negative radius until the lists are rebuilt. It comes
@@ -23,8 +29,6 @@ uint cellOf(vec4 sphere) {
 
 // The number of the point's block of 4 x 4 x 4 cells among the blocks of all levels.
 uint blockAt(vec3 point, uint level) {
-    if (!finite3(point)) return 0u;
-    uvec4 cells = cellsOf(level);
-    vec3 p = point * inverseCellsOf(level);
-    return blockNumber(cells, wrapCell(p.x, cells.x) / 4u, wrapCell(p.y, cells.y) / 4u, wrapCell(p.z, cells.z) / 4u);
+    uvec4 place = cellPlaceAt(point, level);
+    return blockNumber(cellsOf(level), place.x / 4u, place.y / 4u, place.z / 4u);
 }

@@ -264,13 +264,14 @@ struct SphereStatistics {
 #define UNLISTED 0xffffffffu    // pair count of a bundle without a list
 #define ACTIVE 1u               // a sphere of the bundle, or around it, is awake
 #define WAKERS 2u               // such a sphere may wake others
+#define SLEEPERS 4u             // some spheres of the scene sleep
 #define STATISTIC_BLOCK 256u    // spheres per partial sum
 
 // The order of pairs: see shared/bundles.h.
 #define BLOCKS_PER_BUNDLE 4u
 #define HASHED_BATCHES 16u      // the hash of a pair chooses among these
 #define BATCHES 24u             // further pairs of a bundle come one by one
-#define BUNDLE_WORDS 32u        // first pair, listed pairs, bits ACTIVE and WAKERS, 0, the ends of the batches, the end of all pairs
+#define BUNDLE_WORDS 32u        // first pair, listed pairs, bits ACTIVE to SLEEPERS, 0, the ends of the batches, the end of all pairs
 // Words behind the last bundle, for the solver, which binds as many buffers as a kernel may.
 #define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float;
                                 // without movers

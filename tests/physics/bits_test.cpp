@@ -101,21 +101,9 @@ TEST_P(Bits, OfAMixtureAreTheSameOnAllDevices) {
     expectTheSameBits(mixture(GetParam()), seconds(GetParam()));
 }
 
-// A layer of spheres that sleeps while others fall on it: these have lists of their own (shaders/shared/movers.h).
 TEST(BitsOfMovers, AreTheSameOnAllDevices) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
-        scene::Scene scene = sleepyBox(5);
-        scene.quality.model = model;
-        scene.sleep.time = 0.05;
-        measure::setFriction(scene, 0.4);
-        scene::Random random(3);
-        for (int k = 0; k < 46 * 46; ++k)
-            measure::addSphere(scene, {0.105 * (k % 46) - 2.4, 0.105 * (k / 46) - 2.4, -2.45}, 0.05F);
-        for (int k = 0; k < 40; ++k) {
-            measure::addSphere(
-                scene, {0.5 * (k % 8) - 2 + random.uniform(-0.1, 0.1), 0.5 * (k / 8) - 1, -1.5 + 0.02 * k}, 0.05F);
-            scene.spheres.back().velocity = {0.5F, 0.3F, -3.0F};
-        }
+        const scene::Scene scene = layerUnderRain(model);
         expectTheSameBits(scene, 0.4);
         auto simulation = simulate(scene);
         run(*simulation, 0.4);
