@@ -44,6 +44,7 @@ KERNEL(params.spheres) {
         mostMoved(vec3(position[invocation]) - vec3(reference), vec3(v)) > LEAVES_SOON * params.rebuildMove)
         atomicAdd(counters[COUNTER_LEAVING], 1u);
     uint levels = HAS(LEVELS) ? params.levels : 1u;
+    if (HAS(MOVERS) && counters[COUNTER_MOVERS] == 0u) levels = params.moverLevel;
     if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;
     uint substep = counters[COUNTER_SUBSTEPS];
     uint own = levelOf(storedRadius(position[invocation]));

@@ -129,7 +129,8 @@ std::uint32_t invocationsOver(Varying what, const Plan& plan) {
 // more.
 std::uint32_t mostMoversOf(std::uint32_t spheres) {
     constexpr std::uint32_t least = 1024;
-    return spheres / 8 + least;
+    constexpr std::uint32_t most = 1U << 17U;
+    return std::min(spheres / 8 + least, most);
 }
 
 // Returns true if it is worth while to have lists of movers: if spheres sleep, and if lists of all spheres take long.

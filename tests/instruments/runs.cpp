@@ -239,7 +239,7 @@ std::vector<Trial> mixtureTrials() {
         if (model != scene::Model::Accurate) {
             add("crowd", model, 0.05, crowd);
             add("sleepers", model, 0.7, sleepers);
-            add("movers", model, 0.25, physics::layerUnderRain);
+            add("movers", model, 0.3, physics::layerUnderRain);
             trials.push_back({"moves_" + std::string(scene::nameOf(model)), [=] { return resultsOfMoves(model); }});
         }
         add("open", model, seconds, openMixture);
