@@ -1,5 +1,5 @@
-// Marks the blocks and the groups of cells that hold an awake sphere, and the groups that hold one that may wake others,
-// by the number of the substep: on the sphere's own level and on the coarser ones, whose blocks have its pairs with
+// Marks the blocks and groups of cells that hold an awake sphere, and the groups that hold one that may wake others, by the
+// number of the substep. It marks them on the sphere's own level, and on coarser levels, whose blocks have its pairs with
 // larger spheres. It does not mark finer levels, because the sphere's own block has these pairs. A smaller sphere that it
 // wakes marks its own block in the next substep. A sphere that is in no list marks nothing. Counts the spheres that soon
 // become movers (shared/movers.h), and the awake movers. Also marks the blocks that hold a restless sphere (sleep.comp):

@@ -32,7 +32,7 @@ KERNEL(params.spheres) {
     }
     moverSlots[mover] = invocation;
     isMover[invocation] = 1u;
-    // The lists with its pairs are those of the blocks that are no farther than a cell.
+    // The blocks that are no farther than a cell have the lists with its pairs.
     vec3 cells = inverseCellsOf(0u);
     vec3 width = vec3(1.0f / cells.x, 1.0f / cells.y, 1.0f / cells.z);
     for (uint k = 0u; k < 8u; ++k) {

@@ -18,7 +18,7 @@ constexpr std::uint32_t maxObstacles = 1000;
 constexpr std::uint64_t maxObstaclePairs = 30'000'000;  // every sphere meets each obstacle, in each substep
 constexpr std::uint32_t maxGroups = 10'000;             // all are sent to every viewer, again with each new group
 constexpr std::size_t longestName = 200;                // bytes; of a scene and of a group
-constexpr std::size_t longestAdvice = 500;              // bytes; of what viewers may try
+constexpr std::size_t longestAdvice = 500;              // bytes; of `whatToTry`
 constexpr std::size_t maxSinks = 8;
 constexpr std::uint32_t maxSubsteps = 1'000'000;
 

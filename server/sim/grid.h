@@ -32,7 +32,7 @@ struct Level {
 struct Grid {
     float margin = 0;                                   // m; pairs are listed up to this gap
     std::vector<Level> levels = std::vector<Level>(1);  // from the finest to the coarsest; one if radii are similar
-    bool hasMovers = false;                             // the last level is that of movers (shaders/shared/movers.h)
+    bool hasMovers = false;                             // the last level is for movers (shaders/shared/movers.h)
 
     [[nodiscard]] std::uint32_t all() const { return levels.back().first + levels.back().all(); }
     [[nodiscard]] std::uint32_t bundles() const {

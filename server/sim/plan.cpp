@@ -139,7 +139,7 @@ bool hasMovers(const Features& features, std::uint32_t spheres, const Grid& grid
     return features.has(Feature::Sleep) && !features.has(Feature::Periodic) && grid.sizes() == 1 && spheres >= few;
 }
 
-// Returns `count` of the launches per row of the launch table: for lists of all spheres, then for those of movers.
+// Returns `count` of the launches per row of the launch table: for lists of all spheres, then for lists of movers.
 std::vector<std::uint32_t> launchTable(const Plan& plan) {
     const std::uint32_t cells = plan.grid.all() + 1;
     const std::uint32_t cellBlocks = blocksOf(cells, SCAN_BLOCK);

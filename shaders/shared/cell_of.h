@@ -7,7 +7,7 @@ uint levelOf(float radius) {
     return level;
 }
 
-// The place of the point's cell on a level: x, y, z. Of a point that is not finite: the first one.
+// The place of the point's cell on a level: x, y, z. It is the first cell if the point is not finite.
 uvec4 cellPlaceAt(vec3 point, uint level) {
     if (!finite3(point)) return uvec4(0u, 0u, 0u, 0u);
     uvec4 cells = cellsOf(level);

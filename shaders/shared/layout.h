@@ -192,9 +192,9 @@ struct SphereStatistics {
 #define COUNTER_OBSTACLE_PATH 38u // bits of a float (m): the most that obstacles have moved since the lists were built
 #define COUNTER_LEAVING 39u     // spheres that soon become movers; any number above params.mostMovers if more do
 #define COUNTER_BORN 40u        // spheres that were added since the lists were built
-// Of the lists of movers (shared/movers.h).
+// The lists of movers (shared/movers.h):
 #define COUNTER_MOVERS 41u      // spheres in them
-#define COUNTER_MOVERS_ALONE 42u  // not 0: the last lists that were built are those of movers
+#define COUNTER_MOVERS_ALONE 42u  // not 0: the last lists that were built are of movers alone
 #define COUNTER_MOVER_LISTS 43u // times that they were built since the lists of all spheres were
 #define COUNTER_SORTED 44u      // spheres in the lists of all spheres
 #define COUNTER_MOVER_PAIRS 45u // where their pairs begin
@@ -254,7 +254,7 @@ struct SphereStatistics {
 #define LAUNCH_UNLISTED 19u     // in each substep while there are no lists: an invocation for each bundle of a colour
 #define LAUNCH_MOVERS 20u       // in each substep while there are movers: bundles of a colour of their level
 #define LAUNCH_ROWS 21u
-// `dispatchSizes` has two tables of these rows: for lists of all spheres, and for those of movers alone.
+// `dispatchSizes` has two tables of these rows: for lists of all spheres, and for lists of movers alone.
 
 #define LAUNCH_THREADS 64u      // of a work group of a kernel over spheres
 
@@ -276,7 +276,7 @@ struct SphereStatistics {
 #define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float;
                                 // without movers
 #define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
-#define WORD_FASTEST_MOVER 2u   // the same of movers (shared/movers.h)
+#define WORD_FASTEST_MOVER 2u   // the largest squared speed of movers
 // Behind these words are rows of contact sums for each bundle and thread (shared/contact_sums.h).
 #define BUNDLE_THREADS 64u      // parts in which the statistics of a bundle are added up
 #define MOST_PAIR_THREADS 256u  // of PAIR_KERNEL

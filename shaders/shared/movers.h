@@ -12,7 +12,7 @@
 //
 // The includer binds `counters`. shared/entries.h has the slots of entries.
 
-// Lists of movers are built at most this many times before those of all spheres (shared/carried.h).
+// Lists of movers are built at most this many times in succession (shared/carried.h).
 #define MOST_MOVER_LISTS 120u
 // Movers that sleep join the others again once they are more than this number, and more than those that are awake.
 #define FEW_SLEEPING_MOVERS 1024u
@@ -27,7 +27,7 @@ bool moversAlone() {
     return HAS(MOVERS) && counters[COUNTER_MOVERS_ALONE] != 0u;
 }
 
-// What is built: the spheres, the first of their cells, and the first of their bundles.
+// The spheres whose lists are built, the first of their cells, and the first of their bundles.
 uint builtSpheres() {
     return moversAlone() ? min(counters[COUNTER_MOVERS], counters[COUNTER_MOVER_ROOM]) : params.spheres;
 }

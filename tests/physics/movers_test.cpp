@@ -94,7 +94,7 @@ void expectCompleteLists(sim::Simulation& simulation) {
     }
 }
 
-// What each sphere holds is the sum of what its contacts with others hold, for spheres that touch no wall.
+// Each sphere that touches no wall holds the sum of the impulses that its contacts hold.
 void expectHeldSums(sim::Simulation& simulation) {
     sim::Pipeline& pipeline = simulation.pipeline();
     const auto words = pipeline.read<std::uint32_t>(Array::Bundles);
@@ -165,7 +165,7 @@ TEST(Movers, AreListedOnceWithAllTheyTouch) {
     }
 }
 
-// The costs are those of what moves: one sphere asks for lists of a few.
+// One sphere that moves asks for lists of a few.
 TEST(Movers, OneSphereAsksForNoListsOfAll) {
     for (const float speed : {0.0F, 3.0F, 20.0F}) {
         SCOPED_TRACE(speed);
