@@ -36,12 +36,12 @@ const views = {
   "box-50k": { time: 0.5, colour: "height" },
   hourglass: { time: 24, zoom: 1, readme: true },
   "brazil-nut": { time: 20, zoom: 2 },
-  "snow-globe": { time: 2.4, zoom: 3, readme: true },
-  landslide: { time: 5, zoom: 2, readme: true },
+  "snow-globe": { time: 2.4, zoom: 2, readme: true },
+  landslide: { time: 5, zoom: 1, readme: true },
   gas: { time: 1.6, zoom: 1, readme: true },
   sorter: { time: 14 },
-  tornado: { time: 9, zoom: 2 },
-  "bowl-1m": { time: 1.1, quality: "light" },
+  tornado: { time: 9, zoom: 1 },
+  "bowl-1m": { time: 0.7, zoom: 2, quality: "light" },
   "stress-1m": { time: 0, colour: "height", quality: "light" }, // in full quality, software takes minutes for it
 }; // time: s; zoom: steps towards the scene; readme: README shows a larger picture, too
 const small = { size: [360, 225], most: 6000 }; // px; bytes of a picture
