@@ -26,6 +26,7 @@ struct Level {
     [[nodiscard]] std::uint32_t all() const { return cells.x * cells.y * cells.z; }
     // Returns the number of bundles of each of the eight colours: see shaders/shared/bundles.h.
     [[nodiscard]] std::uint32_t bundlesOfColour() const;
+    bool operator==(const Level&) const = default;
 };
 
 // The broad phase's cells.
@@ -38,6 +39,7 @@ struct Grid {
         return levels.back().firstBundle + 8 * levels.back().bundlesOfColour();
     }
     [[nodiscard]] const Level& coarsest() const { return levels.back(); }
+    bool operator==(const Grid&) const = default;
 };
 
 // Returns cells as wide as the largest sphere plus the margin. They cover the domain, but there are at most about two
