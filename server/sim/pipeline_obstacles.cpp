@@ -25,7 +25,7 @@ bool dependsOnObstacles(Array array) {
 
 }  // namespace
 
-// Returns true if lists and what contacts remember have the same form in both.
+// Returns true if the lists and the memory of contacts have the same form in both.
 bool Pipeline::hasListsAs(const Pipeline& before) const {
     for (std::size_t k = 0; k < arrayCount; ++k) {
         const auto array = static_cast<Array>(k);
