@@ -112,11 +112,6 @@ void makeGroupRoom(Check& check, Scene& scene, const char* field) {
         check.refuse(field, fmt::format("needs a group, and groups and emitters are at most {}", maxGroups));
 }
 
-bool sameGroup(const Group& one, const Group& other) {
-    return one.name == other.name && one.material == other.material && one.look.colour == other.look.colour &&
-           one.look.roughness == other.look.roughness && one.look.metal == other.look.metal;
-}
-
 void setGroup(Emitter& emitter, std::size_t group) {
     emitter.group = static_cast<std::uint16_t>(group);
     for (Sphere& sample : emitter.samples) sample.group = emitter.group;
@@ -301,6 +296,12 @@ void takeLook(Emitter& emitter, const Group& group) {
 }
 
 }  // namespace
+
+bool sameGroup(const Group& one, const Group& other) {
+    return one.name == other.name && one.material == other.material && one.fixed == other.fixed &&
+           one.look.colour == other.look.colour && one.look.roughness == other.look.roughness &&
+           one.look.metal == other.look.metal;
+}
 
 std::optional<std::size_t> emitterOf(const Scene& scene, std::size_t group) {
     const auto found = std::ranges::find(scene.emitters, group, &Emitter::group);

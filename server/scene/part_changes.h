@@ -48,6 +48,9 @@ Result<PartChange> changePart(Scene& scene, const v1::ChangeGroup& message);
 // Refuses a number that none of `count` parts has. `of`: their name, such as "fields".
 Result<void> checkNumber(std::uint32_t number, std::size_t count, const char* of);
 
+// Returns true if two groups differ at most in the number of their spheres.
+bool sameGroup(const Group& one, const Group& other);
+
 // Returns the number of the emitter whose spheres are of the group; nullopt if there is none.
 std::optional<std::size_t> emitterOf(const Scene& scene, std::size_t group);
 

@@ -33,6 +33,12 @@ bool changesContacts(const scene::PartChange& change, const scene::Scene& before
     return false;
 }
 
+// True if facts for viewers differ: names of materials, or groups beside their spheres.
+bool changesFacts(const scene::Scene& before, const scene::Scene& after) {
+    return !std::ranges::equal(before.materials, after.materials, {}, &scene::Material::name, &scene::Material::name) ||
+           !std::ranges::equal(before.groups, after.groups, scene::sameGroup);
+}
+
 }  // namespace
 
 // True if the cells of the plan suit the spheres of the scene, and those that its emitters make.
@@ -82,6 +88,7 @@ void Simulation::takePart(scene::Scene changed, const scene::PartChange& change,
     const scene::Forces before = scene_.forces;
     const bool raised = substeps_ > scene_.quality.substeps;  // for a fast sphere
     const bool acts = changesContacts(change, scene_, changed);
+    if (changesFacts(scene_, changed)) ++groupsVersion_;
     const bool newCells = preparation != nullptr && takePipeline(*preparation, changed);
     scene_ = std::move(changed);
     if (change.part == Part::Materials || (change.part == Part::Groups && acts)) {
@@ -107,7 +114,6 @@ void Simulation::takePart(scene::Scene changed, const scene::PartChange& change,
     if (acts) pipeline_->wakeAll();
     saveLastFinite();  // the kept spheres may name groups and materials by other numbers
     ++partsVersion_;
-    if (change.part != Part::Fields && change.part != Part::Pairs) ++groupsVersion_;
     if (newCells) ++generation_;
 }
 
