@@ -26,6 +26,7 @@ struct Level {
     [[nodiscard]] std::uint32_t all() const { return cells.x * cells.y * cells.z; }
     // Returns the number of bundles of each of the eight colours: see shaders/shared/bundles.h.
     [[nodiscard]] std::uint32_t bundlesOfColour() const;
+    bool operator==(const Level&) const = default;
 };
 
 // The broad phase's cells.
@@ -41,6 +42,7 @@ struct Grid {
     // Returns the levels for spheres of different size.
     [[nodiscard]] std::size_t sizes() const { return levels.size() - (hasMovers ? 1 : 0); }
     [[nodiscard]] const Level& coarsest() const { return levels[sizes() - 1]; }
+    bool operator==(const Grid&) const = default;
 };
 
 // Returns cells as wide as the largest sphere plus the margin. They cover the domain, but there are at most about two

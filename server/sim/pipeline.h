@@ -70,9 +70,17 @@ class Pipeline {
 
     // Returns the new key of a contact with an obstacle (shaders/shared/surfaces.h); nullopt: the contact has ended.
     using NewKey = std::function<std::optional<std::uint32_t>(std::uint32_t key)>;
-    // Takes over the state of a pipeline of other obstacles with the same spheres: see planAsOf(). The lists are
-    // rebuilt in the next substep. Waits for the device.
+    // Takes over the state of a pipeline of other obstacles with the same spheres and cells: see planAsOf(). Both have
+    // room for the same number of spheres and pairs. The lists are rebuilt in the next substep. Waits for the device.
     void takeFrom(Pipeline& before, const NewKey& newKey);
+    // The same for a pipeline of other features with the same obstacles. The lists stay if contacts remember the same.
+    void takeFrom(Pipeline& before);
+    // Makes the array SlotOf, which pipelines without contacts lack until a sphere is removed.
+    Result<void> makeSlotOf();
+    // Gives the spheres other materials and masses. `materials` and `inverseMasses` (1/kg, 0 if fixed) are by handle.
+    // The impulses that
+    // contacts hold stay. Waits for the device.
+    void setMaterials(std::span<const std::uint8_t> materials, std::span<const float> inverseMasses);
     // Wakes the spheres with these handles. Waits for the device.
     void wake(std::span<const std::uint32_t> handles);
     // Makes new lists of all spheres in the next substep.
@@ -172,7 +180,7 @@ class Pipeline {
     void chooseLaunches();
     void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
-    Result<void> makeSlotOf();
+    [[nodiscard]] bool hasListsAs(const Pipeline& before) const;
     Result<void> makeMissing(Array array, std::uint64_t elements);
     Result<void> makePulls();
     void moveLastInto(std::vector<std::uint32_t> slots);

@@ -130,7 +130,6 @@ Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
     return {};
 }
 
-// Makes the array SlotOf: in scenes without contacts, slots are handles until a sphere is removed.
 Result<void> Pipeline::makeSlotOf() {
     return makeMissing(Array::SlotOf, plan_.room);
 }
