@@ -1,6 +1,7 @@
 // Changes of the scene at random, and while the world goes on.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -122,6 +123,45 @@ TEST_P(RandomChanges, AtRandomKeepTheWorldWhole) {
         apply(*simulation, sim::Reset{});
         EXPECT_EQ(described(*simulation), described(*simulate(scene)));
     }
+}
+
+// The state to which the world returns has the groups and emitters of the changed scene.
+TEST_P(RandomChanges, TheWorldGoesBackWithItsChanges) {
+    auto simulation = simulate(emptyBox(std::string(jet) + "," + jet, GetParam()));
+    run(*simulation, 0.5);
+    apply(*simulation, change<v1::RemoveEmitter>(R"({"number": 0})"));
+    apply(*simulation, sim::RemoveGroup{0});
+    apply(*simulation, change<v1::AddMaterial>(R"({"material": {"name": "new"}})"));
+    ASSERT_TRUE(simulation->step());
+    sim::State broken = simulation->snapshot();
+    broken.velocity[0].x = std::numeric_limits<float>::quiet_NaN();
+    simulation->upload(broken);
+    ASSERT_TRUE(simulation->step());
+    ASSERT_TRUE(simulation->counters().nonFinite);
+    simulation->rollback();
+    EXPECT_EQ(simulation->scene().groups.size(), 1U);
+    EXPECT_EQ(simulation->scene().groups[0].count, simulation->count());
+    run(*simulation, 0.3);
+    const sim::Statistics now = simulation->statistics();
+    ASSERT_EQ(now.emitters.size(), 1U);
+    EXPECT_EQ(now.nonFinite, 0U);
+    EXPECT_EQ(simulation->scene().groups[0].count, simulation->count());
+}
+
+TEST_P(RandomChanges, AnEndedPreparationChangesNothing) {
+    auto simulation = simulate(fallingBox(GetParam()));
+    auto untouched = simulate(fallingBox(GetParam()));
+    for (int pieces = 0; pieces < 60; pieces += 6) {
+        auto outcome = simulation->begin(addField(fields[1]));
+        ASSERT_TRUE(outcome);
+        for (int k = 0; k < pieces; ++k) {
+            const auto done = outcome->preparation->advance();
+            ASSERT_TRUE(done);
+            if (*done) break;
+        }
+    }
+    EXPECT_EQ(described(*simulation), described(*untouched));
+    EXPECT_EQ(hashAfter(*simulation, 0.2), hashAfter(*untouched, 0.2));
 }
 
 // A preparation lets the world go on, and takes over what has changed meanwhile.
