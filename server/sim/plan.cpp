@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "scene/load.h"
 #include "scene/shapes.h"
@@ -133,10 +134,12 @@ std::uint32_t mostMoversOf(std::uint32_t spheres) {
     return std::min(spheres / 8 + least, most);
 }
 
-// Returns true if it is worth while to have lists of movers: if spheres sleep, and if lists of all spheres take long.
-bool hasMovers(const Features& features, std::uint32_t spheres, const Grid& grid) {
+// Returns for how many spheres a new plan has lists of movers. They are worth while if spheres sleep, and if lists of
+// all spheres take long.
+std::uint32_t newMovers(const Features& features, std::uint32_t spheres, const Grid& grid) {
     constexpr std::uint32_t few = 2000;
-    return features.has(Feature::Sleep) && !features.has(Feature::Periodic) && grid.sizes() == 1 && spheres >= few;
+    const bool sleeps = features.has(Feature::Sleep) && !features.has(Feature::Periodic);
+    return sleeps && grid.sizes() == 1 && spheres >= few ? mostMoversOf(spheres) : 0;
 }
 
 // Returns `count` of the launches per row of the launch table: for lists of all spheres, then for lists of movers.
@@ -265,7 +268,7 @@ std::uint32_t mostBatches(const Plan& plan) {
 namespace {
 
 Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t spheres, std::uint32_t room,
-              const RadiusStats& radii, std::uint32_t pairCapacity) {
+              const RadiusStats& radii, std::uint32_t pairCapacity, std::optional<std::uint32_t> mostMovers) {
     Plan plan;
     plan.features = features;
     plan.model = scene.quality.model;
@@ -274,10 +277,8 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
     plan.periods = scene.bounds.periods();
     if (features.has(Feature::Contacts)) {
         plan.grid = gridFor(scene.bounds, radii, marginInRadii(features));
-        if (hasMovers(features, spheres, plan.grid)) {
-            plan.mostMovers = mostMoversOf(spheres);
-            addMoverLevel(plan.grid, scene.bounds, plan.mostMovers);
-        }
+        plan.mostMovers = mostMovers.value_or(newMovers(features, spheres, plan.grid));
+        if (plan.mostMovers > 0) addMoverLevel(plan.grid, scene.bounds, plan.mostMovers);
         plan.features.set(Feature::Movers, plan.grid.hasMovers);
         plan.features.set(Feature::Levels, plan.grid.levels.size() > 1);
         plan.pairCapacity = pairCapacity != 0
@@ -313,11 +314,13 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
 
 Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
              std::uint32_t pairCapacity) {
-    return planWith(scene, features, spheres, roomFor(spheres), radii, pairCapacity);
+    return planWith(scene, features, spheres, roomFor(spheres), radii, pairCapacity, std::nullopt);
 }
 
 Plan planAsOf(const Plan& other, const scene::Scene& scene, const Features& features, const RadiusStats& radii) {
-    return planWith(scene, features, other.spheres, other.room, radii, other.pairCapacity);
+    // Without sleep, none moves among sleepers.
+    const std::uint32_t mostMovers = features.has(Feature::Sleep) ? other.mostMovers : 0;
+    return planWith(scene, features, other.spheres, other.room, radii, other.pairCapacity, mostMovers);
 }
 
 }  // namespace spherule::sim
