@@ -16,6 +16,7 @@ BUFFER(restrict, uint, accelerationXz)
 BUFFER(restrict, uint, accelerationYz)
 BUFFER(coherent, uint, bundles)
 BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, isMover)
 
 #include "shared/drift.h"
 
@@ -58,7 +59,11 @@ LANE_KERNEL(params.spheres) {
     if (HAS(CONTACTS)) {
         real3 relative = start - real3(driftVelocity());
         real square = dot3(relative, relative);
-        RAISE_TO(awake && square < LARGEST_SQUARE, bundles[params.bundles * BUNDLE_WORDS + WORD_FASTEST], square)
+        mask counted = awake && square < LARGEST_SQUARE;
+        mask mover = noLane();
+        if (HAS(MOVERS)) mover = ROW(isMover, invocation) != uints(0u);
+        RAISE_TO(counted && !mover, bundles[params.bundles * BUNDLE_WORDS + WORD_FASTEST], square)
+        if (anyLane(mover)) RAISE_TO(counted && mover, bundles[params.bundles * BUNDLE_WORDS + WORD_FASTEST_MOVER], square)
     }
     if (HAS(FRICTION)) {
         real4 s = ROW(angularVelocity, invocation);

@@ -12,9 +12,15 @@ BUFFER(readonly, vec4, position)
 BUFFER(coherent, uint, cellStart)
 BUFFER(writeonly, uint, rankInCell)
 BUFFER(writeonly, uint, cellOfSphere)
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, moverSlots)
+
+#include "shared/movers.h"
 
 KERNEL(params.spheres) {
-    uint cell = cellOf(position[invocation]);
+    if (invocation >= builtSpheres()) return;
+    uint cell = moversAlone() ? cellAtLevel(vec3(position[moverSlots[invocation]]), params.moverLevel)
+                              : cellOf(position[invocation]);
     cellOfSphere[invocation] = cell;
     rankInCell[invocation] = atomicAdd(cellStart[cell], 1u);
 }

@@ -10,6 +10,9 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(coherent, uint, cellOrder)
 BUFFER(coherent, uint, otherOrder)  // every second turn of the sort of a crowd writes here
 BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uint, counters)
+
+#include "shared/movers.h"
 
 #define MOST_BY_THREAD 32u  // spheres that a single thread sorts
 #define DIGITS 16u
@@ -95,7 +98,7 @@ void sortCrowds(uint firstCell, uint endCell) {
 }
 
 BUNDLE_KERNEL((allCells() + ORDERED_CELLS - 1u) / ORDERED_CELLS) {
-    uint firstCell = invocation * ORDERED_CELLS;
+    uint firstCell = firstBuiltCell() + invocation * ORDERED_CELLS;
     uint endCell = min(firstCell + ORDERED_CELLS, allCells());
     if (FIRST_THREAD) crowded = 0u;
     BARRIER

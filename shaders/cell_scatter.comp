@@ -7,7 +7,13 @@ BUFFER(readonly, uint, cellOfSphere)  // another kernel might round the cell of 
 BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uint, rankInCell)
 BUFFER(writeonly, uint, cellOrder)
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, moverSlots)
+
+#include "shared/movers.h"
 
 KERNEL(params.spheres) {
-    cellOrder[cellStart[cellOfSphere[invocation]] + rankInCell[invocation]] = invocation;
+    if (invocation >= builtSpheres()) return;
+    uint slot = moversAlone() ? moverSlots[invocation] : invocation;
+    cellOrder[cellStart[cellOfSphere[invocation]] + rankInCell[invocation]] = slot;
 }

@@ -22,6 +22,7 @@ BUFFER(readonly, uvec2, carried)
 #include "shared/carried.h"
 #include "shared/contact_memory.h"
 #include "shared/contact_owner.h"
+#include "shared/movers.h"
 
 // The rows of `carried` are prefetched for the pair that comes this many pairs later.
 #define PAIRS_AHEAD 16u
@@ -50,9 +51,10 @@ uint ownerOf(uint pair) {
 
 BUNDLE_KERNEL(params.bundles) {
     uint bundle = invocation;
-    if (!hasList(bundle) || listedPairs(bundle) == 0u) return;
+    if (bundle < firstBuiltBundle() || !hasList(bundle) || listedPairs(bundle) == 0u) return;
     uint present = presentHalf();
-    uint previous = previousHalf();
+    // The pairs of movers have other numbers than before, so that they may stay in the same half.
+    uint previous = moversAlone() ? present : previousHalf();
     restored = 0u;
     for (uint k = firstPair(bundle) + THREAD; k < endOfPairs(bundle); k += THREADS) {
         PREFETCH(carried[ownerOf(min(k + PAIRS_AHEAD, endOfPairs(bundle) - 1u)) * CARRIED_MOST])
@@ -62,7 +64,7 @@ BUNDLE_KERNEL(params.bundles) {
         uint owner = idOf(idAndMaterial[first ? a : b]);
         uint count = carriedBy(owner);
         if (count == 0u) continue;
-        uint partner = idOf(idAndMaterial[first ? b : a]);
+        uint partner = partnerWord(idOf(idAndMaterial[first ? b : a]));
         for (uint place = owner * CARRIED_MOST; place < owner * CARRIED_MOST + count; ++place) {
             uvec2 one = carried[place];
             if ((one.x & ~FIRST_OWNS) != partner) continue;

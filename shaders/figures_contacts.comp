@@ -16,6 +16,9 @@ BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(coherent, uint, touching)  // spheres, walls and obstacles that each sphere touches
 BUFFER(coherent, uint, deepest)   // bits of the largest overlap / r of each sphere, at least 0
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 void visitPair(uint a, uint b) {
     vec4 pa = position[a];

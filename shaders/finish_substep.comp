@@ -395,6 +395,6 @@ LANE_KERNEL(params.spheres) {
         if (!anyLane(soon)) return;
         mask leaves = inside && moved + next > params.rebuildMove;
         if (HAS(PERIODIC)) leaves = leaves || (inside && mustWrap(to));
-        askForLists(anyLane(leaves));
+        askForLists(anyLane(leaves), HAS(PERIODIC));
     }
 }

@@ -24,6 +24,8 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(coherent, uint, counters)
 BUFFER(writeonly, uvec2, candidates)  // see candidate.h
 BUFFER(writeonly, uvec2, groupRange)  // first candidate, candidates
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 #define LOCAL_PAIRS (THREADS == 1u ? 192u : 32u)
 // Pairs with a gap above this share of the smaller radius are far. They come last in their batch, so that pairs that
@@ -35,7 +37,8 @@ PRIVATE(uint, found)
 PRIVATE(uint, base)      // index of the first pair; UNLISTED during the first walk
 PRIVATE(uvec2, local[LOCAL_PAIRS])
 
-PRIVATE(uint, visited)   // the sphere whose range is visited
+PRIVATE(uint, visitedEntry)  // of the sphere whose range is visited
+PRIVATE(uint, visited)       // its slot
 PRIVATE(uint, visitedId)
 
 SHARED(uint, firstOfThread[THREADS])  // first the number of pairs of each thread, then the number of those before it
@@ -44,7 +47,11 @@ SHARED(uint, groupStart)
 SHARED(bool, fits)
 SHARED(uint, cutShort)
 
-void addPair(uint b, bool isFar) {
+#include "shared/entries.h"
+
+void addPair(uint entry, bool isFar) {
+    if (isOldEntry(visitedEntry, entry)) return;
+    uint b = slotOfEntry(entry);
     uvec2 pair = candidateOf(visited, b, isFar, batchHash(visitedId, idOf(idAndMaterial[b])));
     if (base != UNLISTED) {
         candidates[base + found] = pair;
@@ -55,11 +62,12 @@ void addPair(uint b, bool isFar) {
 }
 
 void visitRange(uint a, uint begin, uint end) {
-    visited = a;
-    visitedId = idOf(idAndMaterial[a]);
-    vec4 sphere = position[a];
+    visitedEntry = a;
+    visited = slotOfEntry(a);
+    visitedId = idOf(idAndMaterial[visited]);
+    vec4 sphere = position[visited];
     real4 pa = real4(sphere);
-    bool fixedHere = HAS(FIXED) && isFixed(velocity[a]);
+    bool fixedHere = HAS(FIXED) && isFixed(velocity[visited]);  // a mover is not fixed
     for (uint b = begin; b < end; b += LANES) {
         uintRow at = ROWS_UP_TO(b, end);
         real radius = HAS(RADII) ? ROW(sortedRadius, at) : real(params.radius);
@@ -98,9 +106,10 @@ void reserve() {
 }
 
 LANE_BUNDLE_KERNEL(allCells() / 8u) {
-    uvec4 cells = cellsOf(levelOfGroup(invocation));
-    if (spheresOfGroup(cells, placeOfGroup(cells, invocation)) == 0u) {
-        if (FIRST_THREAD) groupRange[invocation] = uvec2(0u, 0u);
+    uint group = firstBuiltCell() / 8u + invocation;
+    uvec4 cells = cellsOf(levelOfGroup(group));
+    if (spheresOfGroup(cells, placeOfGroup(cells, group)) == 0u) {
+        if (FIRST_THREAD) groupRange[group] = uvec2(0u, 0u);
         return;
     }
     uint sampleRound = counters[COUNTER_REBUILDS];
@@ -110,13 +119,13 @@ LANE_BUNDLE_KERNEL(allCells() / 8u) {
         found = 0u;
         sampled = 0u;
         // The second walk is for threads with more pairs than the array holds.
-        if (walk == 0u || (fits && count > LOCAL_PAIRS)) visitShareOfGroup(invocation, THREAD, THREADS, sampleRound);
+        if (walk == 0u || (fits && count > LOCAL_PAIRS)) visitShareOfGroup(group, THREAD, THREADS, sampleRound);
         if (walk > 0u) continue;
         count = found;
         if (sampled > 0u) {
             // Each new list takes another share of the pairs. So there must be new lists in each substep.
             atomicAdd(counters[COUNTER_SAMPLED], sampled);
-            atomicOr(counters[COUNTER_REBUILD], REBUILD_DUE);
+            atomicOr(counters[COUNTER_REBUILD], REBUILD_DUE | REBUILD_ALL);
         }
         firstOfThread[THREAD] = count;
         BARRIER
@@ -132,5 +141,5 @@ LANE_BUNDLE_KERNEL(allCells() / 8u) {
     BARRIER
     if (!FIRST_THREAD) return;
     if (cutShort != 0u) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
-    groupRange[invocation] = uvec2(groupStart, fits && cutShort == 0u ? groupPairs : 0u);
+    groupRange[group] = uvec2(groupStart, fits && cutShort == 0u ? groupPairs : 0u);
 }

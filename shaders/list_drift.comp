@@ -7,7 +7,13 @@ PARAMETERS
 
 BUFFER(coherent, uint, counters)
 
+#include "shared/movers.h"
+
 KERNEL(1u) {
+    if (moversAlone()) {
+        counters[COUNTER_MOVERS_ALONE] = LISTS_BUILT;
+        return;
+    }
     counters[COUNTER_RESTING] = counters[COUNTER_RESTING] & RESTS;
     for (uint axis = 0u; axis < 3u; ++axis) {
         uint high = counters[COUNTER_DRIFT_BOX + axis];

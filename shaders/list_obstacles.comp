@@ -14,8 +14,10 @@ BUFFER(readonly, Obstacle, obstacles)
 BUFFER(restrict, uint, obstacleLists)    // see layout.h
 BUFFER(writeonly, uvec2, nearObstacles)  // place of the list, bits of the room (m)
 BUFFER(coherent, uint, counters)
+BUFFER(readonly, uint, moverSlots)
 
 #include "shared/mesh_room.h"
+#include "shared/movers.h"
 
 // The lists hold for some time even if all spheres fall together, and the pair lists with them.
 #define LIST_REACH 2.0f  // in margins
@@ -30,9 +32,11 @@ float distanceTo(uint number, vec3 point) {
 }
 
 KERNEL(params.spheres) {
-    vec3 point = vec3(position[invocation]);
-    vec3 v = vec3(velocity[invocation]);
-    float radius = radiusOf(position[invocation]);
+    if (invocation >= builtSpheres()) return;
+    uint slot = moversAlone() ? moverSlots[invocation] : invocation;
+    vec3 point = vec3(position[slot]);
+    vec3 v = vec3(velocity[slot]);
+    float radius = radiusOf(position[slot]);
     // A contact that ended in the last substep is listed too, because the sphere must forget it.
     float reach = radius + LIST_REACH * params.margin + sqrt(dot3(v, v)) * params.substep;
     if (HAS(MOTION)) reach = reach + OBSTACLE_SUBSTEPS * params.obstaclePath;
@@ -60,5 +64,5 @@ KERNEL(params.spheres) {
             place = ALL_OBSTACLES;
         }
     }
-    nearObstacles[invocation] = uvec2(place, floatBitsToUint(room));
+    nearObstacles[slot] = uvec2(place, floatBitsToUint(room));
 }

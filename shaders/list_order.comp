@@ -12,10 +12,12 @@ PARAMETERS
 
 BUFFER(readonly, uvec2, groupRange)
 BUFFER(coherent, uvec2, candidates)
-BUFFER(restrict, uint, busyBatches)  // by colour and slot: the batches that hold the sphere, and the level above them
+BUFFER(restrict, uint, busyBatches)  // by colour and slot: the batches that hold the sphere, and busyTag() above them
 BUFFER(coherent, uint, counters)
 BUFFER(writeonly, uvec2, pairs)
 BUFFER(writeonly, uint, bundles)
+
+#include "shared/movers.h"
 
 #define ALL_BATCHES 0xffffffu     // BATCHES bits
 #define ALL_HASHED 0xffffu        // HASHED_BATCHES bits
@@ -36,9 +38,14 @@ uint colourOf(uint bundle) {
     return (bundle - params.levelBundles[phase].x) / bundlesOfColour(phase);
 }
 
+// Marks the words of these lists. list_reference.comp clears all words for the lists of all spheres.
+uint busyTag() {
+    return phase + 1u + (moversAlone() ? counters[COUNTER_MOVER_LISTS] : 0u);
+}
+
 uint busyOf(uint row) {
     uint word = busyBatches[row];
-    return word >> 24u == phase + 1u ? word & ALL_BATCHES : 0u;
+    return word >> 24u == busyTag() ? word & ALL_BATCHES : 0u;
 }
 
 // The first free batch from the hash on, among the hashed ones; then any.
@@ -58,8 +65,8 @@ void chooseBatch(uint k, uint busyRow, uint row) {
     uint busyB = busyOf(b);
     uint batch = freeBatch(busyA | busyB, hashOf(candidate));
     if (batch != ALONE) {
-        busyBatches[a] = ((phase + 1u) << 24u) | busyA | (1u << batch);
-        busyBatches[b] = ((phase + 1u) << 24u) | busyB | (1u << batch);
+        busyBatches[a] = (busyTag() << 24u) | busyA | (1u << batch);
+        busyBatches[b] = (busyTag() << 24u) | busyB | (1u << batch);
     }
     uint place = 2u * batch + (isFarPair(candidate) ? 1u : 0u);
     places[row + place] = places[row + place] + 1u;
@@ -118,7 +125,8 @@ bool divideRoom(uint words) {
         return false;
     }
     uint start = atomicAdd(counters[COUNTER_PAIRS], total + PAIR_PADDING);
-    if (total + PAIR_PADDING > params.pairCapacity || start > params.pairCapacity - total - PAIR_PADDING) return false;
+    uint limit = counters[COUNTER_PAIR_LIMIT];
+    if (total + PAIR_PADDING > limit || start > limit - total - PAIR_PADDING) return false;
     bundles[words] = start;
     bundles[words + 1u] = total;
     for (uint place = 0u; place < PLACES; ++place) {

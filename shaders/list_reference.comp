@@ -1,5 +1,5 @@
-// Records the positions of the spheres when the lists are built, the slot of each id, the box of velocities, and the
-// columns of the positions. Collects the spheres outside the bounds in `cellOrder`, which is no longer needed for
+// Records the positions of the spheres when their lists are built, the slot of each id, the box of velocities, and the
+// columns of the positions. If all spheres are sorted, collects the spheres outside the bounds in `cellOrder`, which is no longer needed for
 // sorting.
 #include "shared/kernel.h"
 #include "shared/layout.h"
@@ -21,8 +21,10 @@ BUFFER(writeonly, float, sortedY)
 BUFFER(writeonly, float, sortedZ)
 BUFFER(writeonly, float, sortedRadius)
 BUFFER(coherent, uint, counters)
-BUFFER(writeonly, uint, cellOrder)
+BUFFER(coherent, uint, cellOrder)
+BUFFER(writeonly, uint, isMover)
 
+#include "shared/movers.h"
 #include "shared/ordered_key.h"
 #include "shared/carried.h"
 
@@ -41,23 +43,30 @@ void addToDriftBox(vec3 v) {
 }
 
 KERNEL(params.spheres) {
-    vec4 sphere = position[invocation];
+    if (invocation >= builtSpheres()) return;
+    bool alone = moversAlone();
+    uint entry = alone ? counters[COUNTER_SORTED] + invocation : invocation;
+    uint slot = alone ? cellOrder[entry] : entry;
+    vec4 sphere = position[slot];
     if (storedRadius(sphere) < 0.0f) return;  // it is removed: see cell_of.h
-    vec4 v = velocity[invocation];
+    vec4 v = velocity[slot];
     float room = 0.0f;
     if (finite3(vec3(sphere)) && beyond(vec3(sphere)) > 0.0f) {
+        // The room of movers among each other is not computed.
         room = lost(sphere) ? UNLIMITED_ROOM : -params.margin;
-        if (!lost(sphere)) cellOrder[atomicAdd(counters[COUNTER_OUTSIDE], 1u)] = invocation;
+        if (!lost(sphere) && !alone) cellOrder[atomicAdd(counters[COUNTER_OUTSIDE], 1u)] = slot;
     }
-    listReference[invocation] = vec4(vec3(sphere), room);
-    uint id = idOf(idAndMaterial[invocation]);
-    slotOf[id] = invocation;
+    listReference[slot] = vec4(vec3(sphere), room);
+    if (HAS(MOVERS) && !alone) isMover[slot] = 0u;
+    uint id = idOf(idAndMaterial[slot]);
+    slotOf[id] = slot;
     if (HAS(CONTACT_MEMORY)) carriedCount[id] = withoutNextCount(carriedCount[id]);
-    for (uint colour = 0u; colour < 8u; ++colour) busyBatches[colour * params.spheres + invocation] = 0u;
-    sortedX[invocation] = sphere.x;
-    sortedY[invocation] = sphere.y;
-    sortedZ[invocation] = sphere.z;
-    if (HAS(RADII)) sortedRadius[invocation] = storedRadius(sphere);
+    for (uint colour = 0u; colour < 8u; ++colour) busyBatches[colour * params.spheres + slot] = 0u;
+    sortedX[entry] = sphere.x;
+    sortedY[entry] = sphere.y;
+    sortedZ[entry] = sphere.z;
+    if (HAS(RADII)) sortedRadius[entry] = storedRadius(sphere);
+    if (alone) return;
     if ((HAS(SLEEP) || HAS(FIXED)) && !isAwake(v)) {
         atomicOr(counters[COUNTER_RESTING], RESTS);
     } else if (room == 0.0f && finite3(vec3(v)) && finite3(vec3(sphere))) {

@@ -1,7 +1,8 @@
-// Marks the blocks that hold an awake sphere, by the number of the substep. It marks the sphere's block on its own
-// level and on the coarser ones, whose blocks have its pairs with larger spheres. It does not mark finer levels,
-// because the sphere's own block has these pairs. A smaller sphere that it wakes marks its own block in the next
-// substep. A sphere that is in no list marks no block. Also marks the blocks that hold a restless sphere (sleep.comp):
+// Marks the blocks and groups of cells that hold an awake sphere, and the groups that hold one that may wake others, by the
+// number of the substep. It marks them on the sphere's own level, and on coarser levels, whose blocks have its pairs with
+// larger spheres. It does not mark finer levels, because the sphere's own block has these pairs. A smaller sphere that it
+// wakes marks its own block in the next substep. A sphere that is in no list marks nothing. Counts the spheres that soon
+// become movers (shared/movers.h), and the awake movers. Also marks the blocks that hold a restless sphere (sleep.comp):
 // an awake one that has not been quiet for the sleep time and carries others.
 #include "shared/kernel.h"
 #include "shared/layout.h"
@@ -16,29 +17,50 @@ PARAMETERS
 
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, listReference)  // position for which the lists were built: it gives the sphere's cell
-BUFFER(readonly, uint, counters)
+BUFFER(coherent, uint, counters)
 BUFFER(coherent, uint, activeBlock)
+BUFFER(coherent, uint, activeGroup)
+BUFFER(coherent, uint, wakerGroup)
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, restReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(coherent, uint, restlessBlock)
 BUFFER(readonly, vec4, unheldVelocity)
+BUFFER(readonly, uint, isMover)
+
+#include "shared/leaving.h"
+#include "shared/wake.h"
 
 // A sphere with fewer contacts lies on others. It may roll about for long without changing what they carry.
 #define RESTLESS_PAIRS 5.0f
 
 KERNEL(params.spheres) {
-    if (!isAwake(velocity[invocation])) return;
+    vec4 v = velocity[invocation];
+    if (!isAwake(v)) return;
     vec4 reference = listReference[invocation];
+    bool mover = HAS(MOVERS) && isMover[invocation] != 0u;
+    if (mover) atomicAdd(counters[COUNTER_AWAKE_MOVERS], 1u);
+    if (HAS(MOVERS) && !mover && SEEN(counters[COUNTER_LEAVING]) <= params.mostMovers &&
+        mostMoved(vec3(position[invocation]) - vec3(reference), vec3(v)) > LEAVES_SOON * params.rebuildMove)
+        atomicAdd(counters[COUNTER_LEAVING], 1u);
     uint levels = HAS(LEVELS) ? params.levels : 1u;
+    if (HAS(MOVERS) && counters[COUNTER_MOVERS] == 0u) levels = params.moverLevel;
     if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;
     uint substep = counters[COUNTER_SUBSTEPS];
     uint own = levelOf(storedRadius(position[invocation]));
-    uint block = blockAt(vec3(reference), own);
-    if (HAS(BALANCED) && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
-        quietTimeOf(restReference[idOf(idAndMaterial[invocation])]) < params.sleepTime)
-        atomicExchange(restlessBlock[block], substep);
-    atomicExchange(activeBlock[block], substep);
-    for (uint level = own + 1u; level < levels; ++level)
-        atomicExchange(activeBlock[blockAt(vec3(reference), level)], substep);
+    vec4 rest = restReference[idOf(idAndMaterial[invocation])];
+    bool wakes = canWake(v, rest);
+    for (uint level = own; level < levels; ++level) {
+        uvec4 cells = cellsOf(level);
+        uvec4 place = cellPlaceAt(vec3(reference), level);
+        uint block = blockNumber(cells, place.x / 4u, place.y / 4u, place.z / 4u);
+        if (HAS(BALANCED) && level == own && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
+            quietTimeOf(rest) < params.sleepTime)
+            atomicExchange(restlessBlock[block], substep);
+        if (mover && level == own) continue;  // the lists of its own level have no pairs of a mover
+        uint group = groupNumber(cells, place.x / 2u, place.y / 2u, place.z / 2u);
+        atomicExchange(activeBlock[block], substep);
+        atomicExchange(activeGroup[group], substep);
+        if (wakes) atomicExchange(wakerGroup[group], substep);
+    }
 }

@@ -107,7 +107,7 @@ KERNEL(params.spheres) {
     if (!fallsAsleep) return;
     atomicOr(counters[COUNTER_RESTING], RESTS);
     vec3 drift = driftVelocity();
-    if (beyond(p) > 0.0f || dot3(drift, drift) > 0.0f) atomicOr(counters[COUNTER_REBUILD], REBUILD_DUE);
+    if (beyond(p) > 0.0f || dot3(drift, drift) > 0.0f) atomicOr(counters[COUNTER_REBUILD], REBUILD_DUE | REBUILD_ALL);
     // The velocity before the substep is zero too: neighbours bounce off a sphere at rest.
     velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, u.w);
     velocity[invocation] = sleepToggled(withXyz(v, vec3(0.0f, 0.0f, 0.0f)));

@@ -29,6 +29,7 @@ BUFFER(restrict, float, torqueZ)
 PRIVATE(uint, remembered)  // the first element of the contact memory of the present lists
 PRIVATE(uintRow, memory)   // of the contacts that are solved
 PRIVATE(mask, flagged)     // whether they hold an impulse from the substep before
+PRIVATE(bool, someSleep)   // whether there may be sleepers
 
 #include "shared/bundle_words.h"
 #include "shared/contact.h"
@@ -47,7 +48,8 @@ void readHeldTorque() {
 bool beginBundle(uint bundle) {
     if (!hasList(bundle) || listedPairs(bundle) == 0u || (HAS(SLEEP) && !isActive(bundle))) return false;
     remembered = firstRemembered();
-    contactReach = 2.0f * fastestSpeed() * params.substep + SLOP * params.radius;
+    someSleep = HAS(SLEEP) && mayHaveSleepers(bundle);
+    contactReach = 2.0f * fastestSpeed(bundle) * params.substep + SLOP * params.radius;
     if (HAS(CONTACT_SUMS)) beginContactSums();
     return true;
 }
@@ -82,6 +84,11 @@ void toggleMemory(uint k) {
 }
 
 void visitPairs(slots a, slots b, uintRow at) {
+    if (HAS(SLEEP) && someSleep) {
+        // Nothing moves a pair of sleepers.
+        mask moves = MEMBER(velocity, a, w) > 0.0f || MEMBER(velocity, SLOTS_OF(b), w) > 0.0f;
+        if (!anyLane(liveLanes() && moves)) return;
+    }
     memory = at + remembered;
     flagged = REMEMBERS(pairs, b, at);
     real3 nothing = real3(0.0f, 0.0f, 0.0f);

@@ -102,8 +102,10 @@ void visitPair(uint a, uint b) {
 
 #include "shared/bundle_words.h"
 #include "shared/contact_memory.h"
+#define NO_MOVERS  // in `accurate`, no sphere sleeps
 #include "shared/visit_range.h"
 #include "shared/group.h"
+#undef NO_MOVERS
 
 void endBundle(uint bundle) {
     if (HAS(CONTACT_SUMS)) endContactSums(bundle);

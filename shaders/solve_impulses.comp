@@ -22,6 +22,9 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, ContactParams, contactParams)
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 #include "shared/contact_params.h"
 #include "shared/contact_sums.h"

@@ -19,6 +19,9 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uint, bundles)
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 #include "shared/bundle_words.h"
 #include "shared/contact.h"
@@ -42,7 +45,7 @@ void visitPair(uint a, uint b) {
 KERNEL(bundlesOfPhase()) {
     uint bundle = bundleOfPhase(invocation);
     if (hasList(bundle)) return;
-    contactReach = 2.0f * fastestSpeed() * params.substep + SLOP * params.radius;
+    contactReach = 2.0f * fastestSpeed(bundle) * params.substep + SLOP * params.radius;
     if (HAS(CONTACT_SUMS)) beginContactSums();
     visitBundle(bundle, firstPair(bundle));
     if (HAS(CONTACT_SUMS)) endContactSums(bundle);

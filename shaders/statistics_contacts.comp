@@ -17,6 +17,9 @@ BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(coherent, uint, touching)   // spheres, walls and obstacles that each sphere touches
 BUFFER(writeonly, vec4, overlaps)  // contacts, sum and largest of overlap / r, energy in springs (J)
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
 
 PRIVATE(float, contacts)
 PRIVATE(float, sum)

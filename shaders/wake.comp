@@ -1,6 +1,6 @@
 // Wakes the sleepers with a neighbour that comes or leaves. Runs before the contacts are solved, and also before the
 // lists are rebuilt: the new lists do not hold a neighbour that has left within one substep. `phase` is the level and
-// the colour of the bundles.
+// the colour of the bundles, with LEAVERS before a rebuild.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -19,6 +19,9 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(readonly, uint, isMover)
+BUFFER(readonly, uint, leftBlock)
 
 #include "shared/bundle_words.h"
 
@@ -42,9 +45,14 @@ void visitPair(uint a, uint b) {
 
 #include "shared/visit_range.h"
 #include "shared/group.h"
+#include "shared/left_block.h"
 
 bool beginBundle(uint bundle) {
     if (counters[COUNTER_RESTING] == 0u || !isActive(bundle)) return false;
+    // Before a rebuild, `active` is of the substep before. Only lists that change can lose a pair.
+    bool leavers = (phase & LEAVERS) != 0u;
+    if (!leavers && !hasWakers(bundle)) return false;
+    if (leavers && moversAlone() && bundle < firstBuiltBundle() && !wasLeft(bundle)) return false;
     if (hasList(bundle)) return listedPairs(bundle) > 0u;
     if (FIRST_THREAD) visitBundle(bundle, firstPair(bundle));
     return false;

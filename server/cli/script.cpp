@@ -67,8 +67,9 @@ Result<sim::Command> commandOf(const std::string& where, const v1::Command& mess
     if (message.has_add_obstacle()) return host::changeOf(message.add_obstacle());
     if (message.has_move_obstacle()) return host::changeOf(message.move_obstacle());
     if (message.has_remove_obstacle()) return host::changeOf(message.remove_obstacle());
+    if (auto change = host::partCommandOf(message)) return *change;
     return wrong(where, fmt::format("'{}' has no place in a script; it takes set, spawn, remove, push and changes of "
-                                    "obstacles",
+                                    "obstacles, fields, emitters, materials and groups",
                                     name));
 }
 

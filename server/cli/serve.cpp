@@ -15,10 +15,14 @@ struct ServeOptions {
     recording::LiveOptions recordings;
     ServerOptions serving;
     std::string table;
+    bool watch = false;
 };
 
 Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, const diagnostics::Table& table,
                                                   const host::ProducerIo& io) {
+    // It begins before the scene is read, so that no change is missed.
+    std::unique_ptr<host::SceneWatch> watch;
+    if (options.watch) watch = std::make_unique<host::SceneWatch>(options.scene.scene);
     auto simulation = host::SimulationHost::open(options.scene.device, options.scene.scene, options.scene.overrides);
     if (!simulation) return tl::unexpected(simulation.error());
     io.board.update([&](host::ServerStatus& current) {
@@ -28,13 +32,16 @@ Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, c
         current.scene = (*simulation)->simulation().scene().name;
         current.spheres = (*simulation)->simulation().count();
     });
-    return std::make_unique<host::SimulationProducer>(std::move(*simulation), io, table, options.recordings);
+    return std::make_unique<host::SimulationProducer>(std::move(*simulation), io, table, options.recordings,
+                                                      std::move(watch));
 }
 
 int serve(const ServeOptions& options) {
     const Result<diagnostics::Table> table =
         options.table.empty() ? diagnostics::ownTable() : diagnostics::loadTable(options.table);
     if (!table) return printError(table.error());
+    if (options.watch && !scene::isPath(options.scene.scene))
+        return printError({ErrorKind::Input, "--watch", "needs the file of a scene, such as mine.json"});
     return serveUntilSignal([&](const host::ProducerIo& io) { return open(options, *table, io); }, options.serving,
                             "serves");
 }
@@ -50,6 +57,8 @@ void addServe(CLI::App& app, int& exitCode) {
     command->add_option(
         "--quality-table", options->table,
         "a measure.json of `spherule measure`, with errors and costs for the dial [a table in the program]");
+    command->add_flag("--watch", options->watch,
+                      "load the scene again when its file, or a file that it names, is saved");
     command->footer(exitCodesText);
     addSettings(*command);
     command->callback([options, &exitCode] { exitCode = serve(*options); });

@@ -1,6 +1,7 @@
 #include "client/command_parser.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -35,6 +36,11 @@ constexpr std::string_view ownForms =
     "  remove SPHERE ... | remove region XMIN YMIN ZMIN XMAX YMAX ZMAX\n"
     "  add_obstacle JSON                          adds an obstacle; its motion begins now\n"
     "  move_obstacle N [X Y Z | JSON]             moves it at once by X Y Z (m), or as the JSON says; ends its motion\n"
+    "  add_field JSON | change_field N JSON       a force on every sphere, such as a wind\n"
+    "  add_emitter JSON | change_emitter N JSON   makes spheres\n"
+    "  add_material JSON | change_material N JSON\n"
+    "  set_pair JSON                              values between two materials; without values: removes them\n"
+    "  change_group N JSON                        its name, material, colour, roughness or metal\n"
     "  push SPHERE JX JY JZ                       applies an impulse (N s)\n"
     "  push ray OX OY OZ DX DY DZ JX JY JZ        to the first sphere that the ray hits\n"
     "  record | record stop\n";
@@ -102,14 +108,19 @@ Result<void> readField(const std::string& word, pb::Message& message, const pb::
     return {};
 }
 
-template <class Message>
-Result<Message> fromJson(const std::string& json, const std::string& where, const char* what) {
-    Message message;
+Result<void> readJson(const std::string& json, const std::string& where, const char* what, pb::Message& message) {
     const auto status = google::protobuf::util::JsonStringToMessage(json, &message);
-    if (status.ok()) return message;
+    if (status.ok()) return {};
     const JsonError error = jsonErrorOf({status.message().data(), status.message().size()}, json, what);
     const char* const separator = error.isJson && !error.place.empty() ? ": " : "";
     return fail(ErrorKind::Input, where + separator + error.place, error.reason);
+}
+
+template <class Message>
+Result<Message> fromJson(const std::string& json, const std::string& where, const char* what) {
+    Message message;
+    if (auto read = readJson(json, where, what, message); !read) return tl::unexpected(read.error());
+    return message;
 }
 
 Result<void> wantWords(Words words, std::size_t count, const std::string& command) {
@@ -184,20 +195,21 @@ Result<void> set(Words words, v1::Command& command) {
     return {};
 }
 
-Result<void> spawn(Words words, v1::Command& command) {
-    if (auto right = wantWords(words, 1, "spawn"); !right) return right;
-    auto group = fromJson<v1::Group>(words[0], "spawn", "a group");
-    if (!group) return tl::unexpected(group.error());
-    *command.mutable_spawn()->mutable_group() = std::move(*group);
-    return {};
-}
-
-Result<void> addObstacle(Words words, v1::Command& command) {
-    if (auto right = wantWords(words, 1, "add_obstacle"); !right) return right;
-    auto obstacle = fromJson<v1::Obstacle>(words[0], "add_obstacle", "an obstacle");
-    if (!obstacle) return tl::unexpected(obstacle.error());
-    *command.mutable_add_obstacle()->mutable_obstacle() = std::move(*obstacle);
-    return {};
+// The number of a part if the command names one, then the part as JSON. A command without a message for the part has
+// its other fields in the JSON.
+Result<void> part(const pb::FieldDescriptor& kind, Words words, v1::Command& command) {
+    pb::Message& message = *command.GetReflection()->MutableMessage(&command, &kind);
+    const pb::Descriptor& type = *kind.message_type();
+    const auto* const number = type.FindFieldByName("number");
+    if (auto right = wantWords(words, number == nullptr ? 1 : 2, kind.name()); !right) return right;
+    const auto* const content = type.field(number == nullptr ? 0 : 1);
+    const bool whole = content->message_type() == nullptr;
+    pb::Message& to = whole ? message : *message.GetReflection()->MutableMessage(&message, content);
+    const std::string what =
+        whole ? "a change"
+              : (content->name() == "obstacle" || content->name() == "emitter" ? "an " : "a ") + content->name();
+    if (auto read = readJson(words.back(), kind.name(), what.c_str(), to); !read) return read;
+    return number == nullptr ? Result<void>() : readField(words[0], message, *number);
 }
 
 // The number of the obstacle, then either x y z, or the move as JSON. Without either, the obstacle stops.
@@ -285,24 +297,27 @@ using Parse = Result<void> (*)(Words, v1::Command&);
 
 // The parsers of the commands with forms of their own.
 const std::map<std::string_view, Parse>& parsers() {
-    static const std::map<std::string_view, Parse> table = {{"query", query},
-                                                            {"step", step},
-                                                            {"load", load},
-                                                            {"set", set},
-                                                            {"spawn", spawn},
-                                                            {"remove", remove},
-                                                            {"push", push},
-                                                            {"record", record},
-                                                            {"add_obstacle", addObstacle},
-                                                            {"move_obstacle", moveObstacle}};
+    static const std::map<std::string_view, Parse> table = {
+        {"query", query},   {"step", step}, {"load", load},     {"set", set},
+        {"remove", remove}, {"push", push}, {"record", record}, {"move_obstacle", moveObstacle}};
     return table;
+}
+
+// The commands that part() reads.
+bool isPart(std::string_view name) {
+    constexpr std::array<std::string_view, 10> names = {
+        "spawn",          "add_obstacle", "add_field",       "change_field", "add_emitter",
+        "change_emitter", "add_material", "change_material", "set_pair",     "change_group"};
+    return std::ranges::find(names, name) != names.end();
 }
 
 Result<void> parse(const std::string& name, Words words, v1::Command& command) {
     if (const auto own = parsers().find(name); own != parsers().end()) return own->second(words, command);
-    for (const auto* const kind : net::commandFields())
-        if (kind->name() == name && !kind->options().GetExtension(v1::command_rules).help().empty())
-            return plain(*kind, words, command);
+    for (const auto* const kind : net::commandFields()) {
+        if (kind->name() != name) continue;
+        if (isPart(name)) return part(*kind, words, command);
+        if (!kind->options().GetExtension(v1::command_rules).help().empty()) return plain(*kind, words, command);
+    }
     return refuse("'" + name + "' is no command");
 }
 

@@ -97,13 +97,22 @@ void CommandExecutor::execute(Request request) {
     }
 }
 
+void CommandExecutor::reload(const std::string& name, MakeScene make) {
+    Request request;
+    request.answered = false;
+    request.command.mutable_load()->set_name(name);
+    host_.load(std::move(make));
+    change_ = Pending{std::move(request), Clock::now()};
+}
+
 void CommandExecutor::finish(const Request& request, const Result<sim::Applied>& applied) {
     const v1::CommandRules& rules = net::rulesOf(request.command);
     if (applied && rules.changes_world()) effects_.worldChanged();
     if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done", Cause::Ended);
     if (applied) effects_.publishChanges();
+    if (!request.answered && request.command.has_load()) effects_.reloaded(applied);
     if (request.answered) publisher_.reply(request.session, resultOf(request.command, applied));
-    if (applied && rules.announced())
+    if (request.answered && applied && rules.announced())
         publisher_.announce(request.session, eventOf(request.command, *applied, spheresOf(request.command, *applied)));
 }
 

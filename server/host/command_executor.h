@@ -37,6 +37,7 @@ class CommandExecutor : private ProducerCommands {
         virtual Result<void> stopRecording() = 0;
         virtual void worldChanged() = 0;    // a command has changed the world (changes_world in control.proto)
         virtual void publishChanges() = 0;  // scene facts, settings or the dial may have changed
+        virtual void reloaded(const Result<sim::Applied>& done) = 0;  // reload() has ended
     };
 
     // All must outlive the executor.
@@ -60,6 +61,9 @@ class CommandExecutor : private ProducerCommands {
     // Counts a step for the oldest step command, and answers the command after its last step.
     void countStep();
     void refuseSteps(std::string_view reason, Cause cause);
+    // Begins to load a scene for the server itself; call it only while no change is under way. `name`: of the scene,
+    // for viewers. Clients may cancel or replace it as any change.
+    void reload(const std::string& name, MakeScene make);
     // Refuses all commands that have no answer yet, except those in the queue of requests.
     void refuseAll(const std::string& reason, Cause cause);
 

@@ -77,6 +77,19 @@ Outcome dispatch(const Request& request, SimulationHost& host, ProducerCommands&
             return host.change(changeOf(command.move_obstacle()));
         case v1::Command::kRemoveObstacle:
             return host.change(changeOf(command.remove_obstacle()));
+        case v1::Command::kAddField:
+        case v1::Command::kChangeField:
+        case v1::Command::kRemoveField:
+        case v1::Command::kAddEmitter:
+        case v1::Command::kChangeEmitter:
+        case v1::Command::kRemoveEmitter:
+        case v1::Command::kAddMaterial:
+        case v1::Command::kChangeMaterial:
+        case v1::Command::kRemoveMaterial:
+        case v1::Command::kSetPair:
+        case v1::Command::kChangeGroup:
+        case v1::Command::kRemoveGroup:
+            return host.change(*partCommandOf(command));
         case v1::Command::kPush:
             return push(command.push(), host);
         case v1::Command::kPull:

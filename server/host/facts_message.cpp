@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/check.h"
+#include "scene/describe.h"
 #include "scene/mesh/mesh.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
@@ -137,6 +138,15 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     facts.set_cell_size(static_cast<double>(plan.grid.coarsest().cellSize));
     if (plan.features.has(sim::Feature::Contacts))
         for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.coarsest().cells[axis]);
+    return message;
+}
+
+v1::ServerMessage partsMessage(const scene::Scene& scene) {
+    v1::ServerMessage message;
+    v1::SceneParts& parts = *message.mutable_parts();
+    scene::writeFields(*parts.mutable_fields(), scene.forces.fields);
+    for (const scene::Emitter& emitter : scene.emitters) *parts.add_emitters() = *emitter.message;
+    scene::writeMaterials(scene, *parts.mutable_materials(), *parts.mutable_pairs());
     return message;
 }
 

@@ -15,6 +15,7 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
 // of the last Population message of the epoch.
 v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch, const encode::Places& places,
                                std::uint32_t population);
+v1::ServerMessage partsMessage(const scene::Scene& scene);
 // Returns the message about a change. `groupsBefore`: groups of which clients know.
 v1::ServerMessage populationMessage(const sim::Simulation& simulation, const encode::Places::Change& change,
                                     std::size_t groupsBefore);

@@ -92,6 +92,40 @@ sim::ChangeObstacle changeOf(const v1::RemoveObstacle& message) {
             .make = [](const scene::Scene&) -> Result<std::optional<scene::Obstacle>> { return std::nullopt; }};
 }
 
+std::optional<sim::Command> partCommandOf(const v1::Command& command) {
+    const auto change = [](const auto& message) -> sim::Command {
+        return sim::ChangePart{[message](scene::Scene& scene) { return scene::changePart(scene, message); }};
+    };
+    switch (command.kind_case()) {
+        case v1::Command::kAddField:
+            return change(command.add_field());
+        case v1::Command::kChangeField:
+            return change(command.change_field());
+        case v1::Command::kRemoveField:
+            return change(command.remove_field());
+        case v1::Command::kAddEmitter:
+            return change(command.add_emitter());
+        case v1::Command::kChangeEmitter:
+            return change(command.change_emitter());
+        case v1::Command::kRemoveEmitter:
+            return change(command.remove_emitter());
+        case v1::Command::kAddMaterial:
+            return change(command.add_material());
+        case v1::Command::kChangeMaterial:
+            return change(command.change_material());
+        case v1::Command::kRemoveMaterial:
+            return change(command.remove_material());
+        case v1::Command::kSetPair:
+            return change(command.set_pair());
+        case v1::Command::kChangeGroup:
+            return change(command.change_group());
+        case v1::Command::kRemoveGroup:
+            return sim::RemoveGroup{command.remove_group().number()};
+        default:
+            return std::nullopt;
+    }
+}
+
 Result<sim::Push> pushOf(const v1::Push& message) {
     sim::Push push;
     const auto impulse = scene::vectorOf(message.impulse(), "impulse");

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/progress.h"
@@ -21,6 +22,8 @@ Result<sim::Remove> removeOf(const v1::Remove& message);
 sim::ChangeObstacle changeOf(const v1::AddObstacle& message);
 sim::ChangeObstacle changeOf(const v1::MoveObstacle& message);
 sim::ChangeObstacle changeOf(const v1::RemoveObstacle& message);
+// Returns the change of a field, an emitter, a material or a group; nullopt for another command.
+std::optional<sim::Command> partCommandOf(const v1::Command& command);
 Result<sim::Push> pushOf(const v1::Push& message);
 Result<sim::Pull> pullOf(const v1::Pull& message, std::uint64_t session);
 

@@ -75,7 +75,10 @@ std::optional<Result<sim::Applied>> SimulationHost::change(const sim::Command& c
         return std::move(outcome->applied);
     }
     const bool reset = std::holds_alternative<sim::Reset>(command);
-    change_ = Change{.kind = reset ? Change::Kind::Reset : Change::Kind::Other,
+    const bool beside = outcome->preparation->letsStep();
+    change_ = Change{.kind = reset    ? Change::Kind::Reset
+                             : beside ? Change::Kind::Beside
+                                      : Change::Kind::Other,
                      .preparation = std::move(outcome->preparation),
                      .speed = speed};
     return std::nullopt;
@@ -139,7 +142,7 @@ sim::Applied SimulationHost::finishChange() {
     }
     const sim::Applied done = simulation_->adopt(std::move(change.preparation));
     if (change.speed) scheduler_.setSpeed(*change.speed);
-    scheduler_.resume(Clock::now());
+    if (change.kind != Change::Kind::Beside) scheduler_.resume(Clock::now());
     if (change.kind == Change::Kind::Reset) pendingSteps_ = 0;
     if (simulation_->generation() != generation_) beginEpoch();
     return done;

@@ -70,7 +70,7 @@ class SimulationHost {
 
     // A change of the world that is under way.
     struct Change {
-        enum class Kind : std::uint8_t { Load, Reset, Other };
+        enum class Kind : std::uint8_t { Load, Reset, Beside, Other };  // Beside: the world goes on
         Kind kind = Kind::Other;
         std::unique_ptr<sim::Preparation> preparation;
         std::optional<double> speed{};  // set together with the change
@@ -78,7 +78,9 @@ class SimulationHost {
     sim::Applied finishChange();
     void adopt(std::unique_ptr<sim::Preparation> preparation);
     void beginEpoch();
-    [[nodiscard]] bool heldStill() const { return change_ && change_->kind != Change::Kind::Load; }
+    [[nodiscard]] bool heldStill() const {
+        return change_ && change_->kind != Change::Kind::Load && change_->kind != Change::Kind::Beside;
+    }
 
     std::unique_ptr<compute::Device> device_;
     scene::Overrides overrides_;

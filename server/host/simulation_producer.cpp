@@ -9,6 +9,7 @@
 #include "core/heartbeat.h"
 #include "core/log.h"
 #include "core/text.h"
+#include "host/facts_message.h"
 #include "host/to_proto.h"
 
 namespace spherule::host {
@@ -30,12 +31,14 @@ constexpr auto measureAfterRead = 150s;  // figures are measured this long after
 }  // namespace
 
 SimulationProducer::SimulationProducer(std::unique_ptr<SimulationHost> host, const ProducerIo& io,
-                                       diagnostics::Table table, recording::LiveOptions recordings)
+                                       diagnostics::Table table, recording::LiveOptions recordings,
+                                       std::unique_ptr<SceneWatch> watch)
     : owned_(std::move(host)),
       host_(*owned_),
       board_(io.board),
       publisher_(io.publisher),
       saver_(io.saver),
+      watch_(std::move(watch)),
       recorder_(std::move(recordings), welcomeOf(host_.device().info())),
       streams_(
           host_, publisher_, recorder_, [this] { frameRate_.add(version_, Clock::now()); },
@@ -60,6 +63,7 @@ Result<void> SimulationProducer::simulate(const std::stop_token& stop) {
     while (done && !stop.stop_requested()) {
         heartbeat::beat("serving viewers");
         commands_.serveWaiting();
+        reloadWhenSaved();
         const bool worked = advance(done);
         if (!done) break;
         commands_.answerQueries();
@@ -74,6 +78,21 @@ Result<void> SimulationProducer::simulate(const std::stop_token& stop) {
     }
     commands_.refuseAll("the server is stopping", Cause::Stopping);
     return done;
+}
+
+// Loads the scene again when its file, or a file that it names, has been saved.
+void SimulationProducer::reloadWhenSaved() {
+    if (!watch_ || host_.changing() || !watch_->takeChange()) return;
+    spdlog::info("{} has been saved: loading it again", watch_->path());
+    commands_.reload(watch_->name(), watch_->load(host_.device().info().kind, host_.overrides()));
+}
+
+void SimulationProducer::reloaded(const Result<sim::Applied>& done) {
+    if (done)
+        spdlog::info("{} is loaded", watch_->path());
+    else
+        notify(v1::Event::WARNING, fmt::format("{} was saved but is not loaded, the world stays as it is. {}",
+                                               watch_->name(), done.error().text()));
 }
 
 // Does a part of the step under way and of the change under way. Returns false when there is neither.
@@ -116,6 +135,7 @@ void SimulationProducer::publishChanges() {
         settings_ = std::move(bytes);
         retain(std::move(settings));
     }
+    sendParts();
     if (sampler_.updateDial(host_.simulation(), world_)) sendDial();
     ++version_;
 }
@@ -275,6 +295,17 @@ std::string SimulationProducer::slowness() const {
     if (stepMs_ < slowStepMs || !host_.running()) return "";
     return fmt::format("the step under way has taken {:.1f} s so far, {:.1f} % of it is done", 1e-3 * stepMs_,
                        100 * host_.simulation().shareOfStep());
+}
+
+// Sends the fields, emitters and materials if they have changed.
+void SimulationProducer::sendParts() {
+    const Parts present{host_.epoch(), host_.simulation().partsVersion()};
+    if (std::exchange(parts_, present) == present) return;
+    v1::ServerMessage message = partsMessage(host_.simulation().scene());
+    std::string bytes = message.SerializeAsString();
+    if (bytes == partsBytes_) return;
+    partsBytes_ = std::move(bytes);
+    publisher_.retain(codec::share(std::move(message)));
 }
 
 void SimulationProducer::sendDial() {

@@ -12,6 +12,7 @@
 #include "host/diagnostics_sampler.h"
 #include "host/frame_producer.h"
 #include "host/rate_meter.h"
+#include "host/scene_watch.h"
 #include "host/simulation_host.h"
 #include "host/state_streams.h"
 #include "recording/live_recorder.h"
@@ -23,8 +24,9 @@ namespace spherule::host {
 // copy of a state.
 class SimulationProducer : public FrameProducer, private CommandExecutor::Effects {
   public:
+    // `watch`: of the file of the scene, which is loaded again when it changes; null: none.
     SimulationProducer(std::unique_ptr<SimulationHost> host, const ProducerIo& io, diagnostics::Table table,
-                       recording::LiveOptions recordings);
+                       recording::LiveOptions recordings, std::unique_ptr<SceneWatch> watch = nullptr);
 
     // Runs until stopped, until the device is lost, or until the recording of the options fails.
     Result<void> run(const std::stop_token& stop) override;
@@ -40,6 +42,8 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     [[nodiscard]] std::string slowness() const;
     void worldChanged() override;
     void publishChanges() override;
+    void reloaded(const Result<sim::Applied>& done) override;
+    void reloadWhenSaved();
     void retain(v1::ServerMessage message);
     void broadcast(v1::ServerMessage message);
     Result<void> tune(double wallMs);
@@ -58,6 +62,7 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     Result<void> finishRecording();
     void sampleDiagnostics(const std::vector<double>& passSeconds);
     void sendDial();
+    void sendParts();
     [[nodiscard]] v1::Status status(Clock::time_point now);
     [[nodiscard]] Clock::duration waitTime(Clock::time_point now) const;
 
@@ -66,6 +71,7 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     StatusBoard& board_;
     net::Publisher& publisher_;
     SceneSaver& saver_;
+    std::unique_ptr<SceneWatch> watch_;
     recording::LiveRecorder recorder_;
     StateStreams streams_;
     RateMeter frameRate_;
@@ -78,6 +84,14 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     std::uint32_t world_ = 0;                     // the host's epoch
     std::uint64_t population_ = 0;                // its version at the end of the last step
     std::string settings_;                        // serialized, as sent last
+    // The state of the simulation of which viewers know the parts.
+    struct Parts {
+        std::uint32_t epoch = 0;
+        std::uint64_t version = 0;
+        bool operator==(const Parts&) const = default;
+    };
+    std::optional<Parts> parts_;
+    std::string partsBytes_;  // serialized, as sent last
     bool watched_ = false;
     bool timed_ = false;               // passes are timed
     std::vector<double> passSeconds_;  // device time (s) since the last sampleDiagnostics(), by sim::Pass

@@ -48,6 +48,7 @@ void StateStreams::publish(const codec::EncodedFrame& encoded) {
 }
 
 void StateStreams::beginWorld() {
+    groupsVersion_ = host_.simulation().groupsVersion();
     othersEpoch_ = epoch_ = ++lastEpoch_;
     renewOthers();
     beginFollowers();
@@ -60,9 +61,10 @@ void StateStreams::produce(const Moment& moment, std::vector<codec::Subscription
     std::vector<codec::Subscription> others(rest.begin(), rest.end());
     subscriptions.erase(rest.begin(), rest.end());
     recorder_.subscribe(others, now);
-    followPopulation(!subscriptions.empty(), now);
+    const bool known = renewGroups(now);
+    if (known) followPopulation(!subscriptions.empty(), now);
     const std::uint64_t version = host_.simulation().population().version();
-    if (othersVersion_ != version && now >= nextRenewal_) {
+    if (known && othersVersion_ != version && now >= nextRenewal_) {
         nextRenewal_ = now + (others.empty() ? Clock::duration(renewWithoutViewers) : Clock::duration(renewEvery));
         othersEpoch_ = ++lastEpoch_;
         renewOthers();
@@ -131,6 +133,16 @@ void StateStreams::renewOthers() {
     const auto facts = codec::share(factsMessage(host_.simulation(), othersEpoch_));
     recorder_.retain(facts);
     publisher_.retain(facts, codec::Audience::Others);
+}
+
+// Tells everybody of groups and materials that have changed, in a new epoch, at most ten times a second. Returns false
+// while they do not know the present ones: groups may have other numbers by then.
+bool StateStreams::renewGroups(Clock::time_point now) {
+    if (groupsVersion_ == host_.simulation().groupsVersion()) return true;
+    if (now < nextGroups_) return false;
+    nextGroups_ = now + renewEvery;
+    beginWorld();
+    return true;
 }
 
 // Gives the followers new places, in a new epoch.

@@ -56,6 +56,7 @@ class StateStreams {
     encode::FrameSource sourceAt(const Moment& moment);
     encode::EncoderInput inputOfOthers(const Moment& moment);
     encode::EncoderInput inputOfFollowers(const Moment& moment);
+    bool renewGroups(Clock::time_point now);
     void renewOthers();
     void beginFollowers();
     void followPopulation(bool watched, Clock::time_point now);
@@ -73,6 +74,8 @@ class StateStreams {
     std::uint32_t othersEpoch_ = 0;
     std::uint64_t othersVersion_ = 0;  // of the population, in this epoch
     Clock::time_point nextRenewal_{};
+    std::uint64_t groupsVersion_ = 0;  // of the groups and materials that clients know
+    Clock::time_point nextGroups_{};
     // The followers' epoch.
     std::uint32_t epoch_ = 0;
     encode::Places places_{sim::Population()};

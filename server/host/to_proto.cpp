@@ -154,6 +154,7 @@ v1::Applied appliedMessage(const sim::Applied& applied) {
     if (applied.sphere) message.set_sphere(*applied.sphere);
     if (applied.removed) message.set_removed(*applied.removed);
     if (applied.obstacle) message.set_obstacle(*applied.obstacle);
+    if (applied.number) message.set_number(*applied.number);
     if (applied.force) scene::setVector(*message.mutable_force(), *applied.force);
     if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
     if (applied.inspected) *message.mutable_inspected() = inspectedMessage(*applied.inspected);
@@ -206,6 +207,10 @@ v1::Event eventOf(const v1::Command& command, const sim::Applied& applied, std::
         told.mutable_remove();
     else if (command.has_add_obstacle())
         told.mutable_add_obstacle();
+    else if (command.has_add_emitter())
+        told.mutable_add_emitter()->mutable_emitter()->set_name(command.add_emitter().emitter().name());
+    else if (command.has_change_emitter())
+        told.mutable_change_emitter()->mutable_emitter()->set_name(command.change_emitter().emitter().name());
     else if (command.has_load())
         told.mutable_load()->set_name(
             utf8(command.load().has_scene() ? command.load().scene().name() : command.load().name()));

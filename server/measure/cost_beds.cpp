@@ -65,7 +65,7 @@ Result<void> sizes(Bench& bench) {
         bench.add(plain(name + ": substep", 1e6 * took, "us"));
         bench.add(plain(name + ": pairs listed", simulation.counters().pairs, ""));
         bench.add(plain(name + ": overlapping", static_cast<double>(statistics.contacts), ""));
-        bench.add(plain(name + ": classes of sizes", static_cast<double>(simulation.plan().grid.levels.size()), ""));
+        bench.add(plain(name + ": classes of sizes", static_cast<double>(simulation.plan().grid.sizes()), ""));
         const double bytes = static_cast<double>(simulation.plan().bytes()) / simulation.count();
         bench.add(plain(name + ": memory", bytes, "bytes per sphere"));
     }

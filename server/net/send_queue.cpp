@@ -11,7 +11,8 @@ namespace {
 bool replaceable(v1::ServerMessage::KindCase kind) {
     using enum v1::ServerMessage::KindCase;
     return kind == kScene || kind == kOrder || kind == kSettings || kind == kDial || kind == kDiagnostics ||
-           kind == kStream || kind == kTimeline || kind == kRecording || kind == kControl || kind == kChange;
+           kind == kStream || kind == kTimeline || kind == kRecording || kind == kControl || kind == kChange ||
+           kind == kParts;
 }
 
 }  // namespace

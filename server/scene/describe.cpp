@@ -15,29 +15,6 @@ void setBox(v1::Box& message, const Box& box) {
     setVector(*message.mutable_max(), box.max);
 }
 
-void setMaterials(v1::Scene& message, const Scene& scene) {
-    for (const Material& material : scene.materials) {
-        v1::Material& to = *message.add_materials();
-        to.set_name(material.name);
-        to.set_density(material.density);
-        to.set_restitution(material.restitution);
-        to.set_friction(material.friction);
-        to.set_rolling_resistance(material.rollingResistance);
-        to.set_spinning_resistance(material.spinningResistance);
-        if (material.young > 0) to.set_young(material.young);
-        to.set_poisson(material.poisson);
-    }
-    for (const MaterialPair& pair : scene.pairs) {
-        v1::MaterialPair& to = *message.add_pairs();
-        to.set_a(scene.materials[pair.a].name);
-        to.set_b(scene.materials[pair.b].name);
-        if (pair.restitution) to.set_restitution(*pair.restitution);
-        if (pair.friction) to.set_friction(*pair.friction);
-        if (pair.rollingResistance) to.set_rolling_resistance(*pair.rollingResistance);
-        if (pair.spinningResistance) to.set_spinning_resistance(*pair.spinningResistance);
-    }
-}
-
 void setBounds(v1::Scene& message, const Scene& scene, double time) {
     v1::Bounds& to = *message.mutable_bounds();
     setVector(*to.mutable_min(), scene.bounds.min);
@@ -75,14 +52,38 @@ void setGroups(v1::Scene& message, const Scene& scene) {
 
 }  // namespace
 
+void writeMaterials(const Scene& scene, google::protobuf::RepeatedPtrField<v1::Material>& materials,
+                    google::protobuf::RepeatedPtrField<v1::MaterialPair>& pairs) {
+    for (const Material& material : scene.materials) {
+        v1::Material& to = *materials.Add();
+        to.set_name(material.name);
+        to.set_density(material.density);
+        to.set_restitution(material.restitution);
+        to.set_friction(material.friction);
+        to.set_rolling_resistance(material.rollingResistance);
+        to.set_spinning_resistance(material.spinningResistance);
+        if (material.young > 0) to.set_young(material.young);
+        to.set_poisson(material.poisson);
+    }
+    for (const MaterialPair& pair : scene.pairs) {
+        v1::MaterialPair& to = *pairs.Add();
+        to.set_a(scene.materials[pair.a].name);
+        to.set_b(scene.materials[pair.b].name);
+        if (pair.restitution) to.set_restitution(*pair.restitution);
+        if (pair.friction) to.set_friction(*pair.friction);
+        if (pair.rollingResistance) to.set_rolling_resistance(*pair.rollingResistance);
+        if (pair.spinningResistance) to.set_spinning_resistance(*pair.spinningResistance);
+    }
+}
+
 v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_t> born) {
     v1::Scene message;
     message.set_name(scene.name);
     message.set_description(scene.description);
     message.set_what_to_try(scene.whatToTry);
     setVector(*message.mutable_gravity(), scene.forces.gravity);
-    writeFields(message, scene.forces.fields);
-    setMaterials(message, scene);
+    writeFields(*message.mutable_fields(), scene.forces.fields);
+    writeMaterials(scene, *message.mutable_materials(), *message.mutable_pairs());
     setBounds(message, scene, time);
     setGroups(message, scene);
     writeEmitters(message, scene, time, born);

@@ -12,4 +12,8 @@ namespace spherule::scene {
 // no spheres. `time`: s simulated; obstacles and emitters go on from there. `born`: spheres that each emitter has made.
 v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_t> born = {});
 
+// Writes the materials and the pairs of a scene.
+void writeMaterials(const Scene& scene, google::protobuf::RepeatedPtrField<v1::Material>& materials,
+                    google::protobuf::RepeatedPtrField<v1::MaterialPair>& pairs);
+
 }  // namespace spherule::scene

@@ -51,6 +51,7 @@ struct Emitter {
     double velocitySpread = 0;             // m/s: velocities are uniform in a ball of this radius about `velocity`
     glm::vec3 spin{};                      // rad/s
     std::optional<std::uint64_t> total{};  // spheres; nullopt: no end
+    double origin = 0;                     // s simulated: the message's `begin` counts from here
     double begin = 0;                      // s simulated
     std::vector<Span> schedule{};          // ascending; empty: always
     double repeat = 0;                     // s: the schedule begins again; 0: never

@@ -174,12 +174,14 @@ void checkFreePlaces(Check& check, const Emitter& emitter, const Scene& scene, c
                                     samplesPerEmitter * Emitter::mostAttempts, emitter.radii.min, reason));
 }
 
-// `number`: of the emitter in the scene.
-Emitter readEmitter(Check& check, const v1::Emitter& message, std::size_t number, const Scene& scene) {
-    const std::string field = at("emitters", number);
+}  // namespace
+
+Emitter readEmitter(Check& check, const v1::Emitter& message, const EmitterContext& context, const Scene& scene) {
+    const std::string& field = context.field;
     Emitter emitter;
-    emitter.stream = number;
-    emitter.group = static_cast<std::uint16_t>(scene.groups.size());
+    emitter.stream = context.stream;
+    emitter.group = context.group;
+    emitter.origin = context.origin;
     checkName(check, message.name(), at(field, "name"));
     emitter.name = message.name();
     emitter.region = readRegion(check, message, field);
@@ -205,16 +207,34 @@ Emitter readEmitter(Check& check, const v1::Emitter& message, std::size_t number
     if (message.has_seed()) emitter.seed = message.seed();
     emitter.message = std::make_shared<const v1::Emitter>(message);
     readSchedule(check, message, field, emitter);
+    emitter.begin += context.origin;
     if (!check.ok()) return emitter;
-    emitter.density = scene.materials[emitter.material].density;
     drawSamples(emitter);
-    emitter.expected = expectedSpheres(emitter, scene);
-    checkStream(check, emitter, field);
+    useMaterial(check, emitter, scene, field);
     if (check.ok()) checkFreePlaces(check, emitter, scene, field);
     return emitter;
 }
 
-}  // namespace
+void useMaterial(Check& check, Emitter& emitter, const Scene& scene, const std::string& field) {
+    emitter.density = scene.materials[emitter.material].density;
+    emitter.expected = expectedSpheres(emitter, scene);
+    checkStream(check, emitter, field);
+}
+
+void checkBirths(Check& check, const Scene& scene, const std::string& field) {
+    double births = 0;  // in a step
+    for (const Emitter& emitter : scene.emitters) births += meanRate(emitter) * scene.step;
+    if (births > mostBirthsPerStep)
+        check.refuse(field, fmt::format("brings the emitters to {:.6g} spheres in a step, at most {:g} are allowed; "
+                                        "lower the flow, or shorten the step",
+                                        births, mostBirthsPerStep));
+}
+
+Group groupFor(Check& check, const v1::Emitter& message, const Emitter& emitter, const std::string& field) {
+    Group group = groupOf({}, emitter.name, readLook(check, message, field));
+    group.material = emitter.material;
+    return group;
+}
 
 void readEmitters(Check& check, const v1::Scene& message, std::optional<std::uint64_t> seed, Scene& scene) {
     if (static_cast<std::size_t>(message.emitters_size()) > maxEmitters)
@@ -222,23 +242,16 @@ void readEmitters(Check& check, const v1::Scene& message, std::optional<std::uin
                      fmt::format("has {} entries, must have at most {}", message.emitters_size(), maxEmitters));
     if (scene.groups.size() + static_cast<std::size_t>(message.emitters_size()) > maxGroups)
         check.refuse("emitters", fmt::format("are too many: groups and emitters are at most {}", maxGroups));
-    double births = 0;  // in a step
     for (std::size_t k = 0; k < static_cast<std::size_t>(message.emitters_size()) && check.ok(); ++k) {
         const std::string field = at("emitters", k);
         v1::Emitter one = message.emitters(static_cast<int>(k));
         if (seed) one.set_seed(*seed);
-        Emitter emitter = readEmitter(check, one, k, scene);
-        Group group = groupOf({}, emitter.name, readLook(check, one, field));
-        group.material = emitter.material;
-        scene.groups.push_back(std::move(group));
+        const auto group = static_cast<std::uint16_t>(scene.groups.size());
+        Emitter emitter = readEmitter(check, one, {.field = field, .stream = k, .group = group}, scene);
+        scene.groups.push_back(groupFor(check, one, emitter, field));
         if (!check.ok()) return;
-        births += meanRate(emitter) * scene.step;
-        if (births > mostBirthsPerStep)
-            check.refuse(field,
-                         fmt::format("brings the emitters to {:.6g} spheres in a step, at most {:g} are allowed; "
-                                     "lower the flow, or shorten the step",
-                                     births, mostBirthsPerStep));
         scene.emitters.push_back(std::move(emitter));
+        checkBirths(check, scene, field);
     }
 }
 

@@ -94,7 +94,7 @@ std::optional<Region> readRegion(Check& check, const v1::Field& message, const s
     return std::nullopt;
 }
 
-std::optional<Field> readField(Check& check, const v1::Field& message, const std::string& field) {
+std::optional<Field> readKindOf(Check& check, const v1::Field& message, const std::string& field) {
     switch (message.kind_case()) {
         case v1::Field::kDrag:
             return readKind(check, message.drag(), at(field, "drag"));
@@ -186,23 +186,26 @@ double submergedIntegral(double radius, double depth) {
     return cap + 4 * pi / 3 * radius * radius * radius * std::max(depth - radius, 0.0);
 }
 
+std::optional<Field> readField(Check& check, const v1::Field& message, const std::string& at) {
+    std::optional<Field> field = readKindOf(check, message, at);
+    if (field) std::visit([&](auto& one) { one.region = readRegion(check, message, at); }, *field);
+    return field;
+}
+
 std::vector<Field> readFields(Check& check, const v1::Scene& message) {
     std::vector<Field> fields;
     if (static_cast<unsigned>(message.fields_size()) > maxFields)
         check.refuse("fields", fmt::format("has {} entries, must have at most {}", message.fields_size(), maxFields));
     for (int k = 0; k < message.fields_size() && check.ok(); ++k) {
-        const std::string at = scene::at("fields", static_cast<std::size_t>(k));
-        std::optional<Field> field = readField(check, message.fields(k), at);
-        if (!field) break;
-        std::visit([&](auto& one) { one.region = readRegion(check, message.fields(k), at); }, *field);
-        fields.push_back(std::move(*field));
+        std::optional<Field> field = readField(check, message.fields(k), at("fields", static_cast<std::size_t>(k)));
+        if (field) fields.push_back(std::move(*field));
     }
     return fields;
 }
 
-void writeFields(v1::Scene& message, const std::vector<Field>& fields) {
+void writeFields(google::protobuf::RepeatedPtrField<v1::Field>& messages, const std::vector<Field>& fields) {
     for (const Field& field : fields) {
-        v1::Field& to = *message.add_fields();
+        v1::Field& to = *messages.Add();
         std::visit([&](const auto& one) { writeKind(to, one); }, field);
         if (const auto& region = regionOf(field)) std::visit([&](const auto& one) { writeRegion(to, one); }, *region);
     }

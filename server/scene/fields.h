@@ -1,16 +1,19 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include <google/protobuf/repeated_field.h>
 #include <glm/vec3.hpp>
 
 #include "scene/region.h"
 
 namespace spherule::v1 {
+class Field;
 class Scene;
-}
+}  // namespace spherule::v1
 
 // The fields of a scene and their laws. Kernels have the same laws in shaders/shared/fields.h.
 namespace spherule::scene {
@@ -83,9 +86,11 @@ double submergedVolume(double radius, double depth);
 // Returns the integral of submergedVolume() (m^4) from a sphere above the plane down to `depth`.
 double submergedIntegral(double radius, double depth);
 
+// Reads a field of a scene. `at`: its place in the message. Returns nullopt if it has no kind, which it refuses.
+std::optional<Field> readField(Check& check, const v1::Field& message, const std::string& at);
 // Reads `fields` of a scene.
 std::vector<Field> readFields(Check& check, const v1::Scene& message);
 // Adds fields to a message.
-void writeFields(v1::Scene& message, const std::vector<Field>& fields);
+void writeFields(google::protobuf::RepeatedPtrField<v1::Field>& messages, const std::vector<Field>& fields);
 
 }  // namespace spherule::scene

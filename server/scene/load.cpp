@@ -18,10 +18,6 @@ namespace spherule::scene {
 
 namespace {
 
-bool isPath(std::string_view source) {
-    return source.find('/') != std::string_view::npos || source.ends_with(".json");
-}
-
 constexpr std::uint64_t longestFile = 32U << 20U;  // bytes of JSON
 constexpr std::ptrdiff_t mostObjects = 2'000'000;  // each takes about 130 bytes when parsed, even if empty
 
@@ -76,7 +72,26 @@ Result<Scene> buildFile(const std::string& text, const std::string& source, cons
     return buildText(text, source, path.stem().string(), path.parent_path(), overrides, progress);
 }
 
+// Adds the values of all fields `file` in a message.
+void addFiles(const google::protobuf::Message& message, std::vector<std::string>& files) {
+    const auto& reflection = *message.GetReflection();
+    std::vector<const google::protobuf::FieldDescriptor*> fields;
+    reflection.ListFields(message, &fields);
+    for (const auto* const field : fields) {
+        if (field->name() == "file" && field->cpp_type() == field->CPPTYPE_STRING && !field->is_repeated())
+            files.push_back(reflection.GetString(message, field));
+        if (field->cpp_type() != field->CPPTYPE_MESSAGE) continue;
+        if (!field->is_repeated()) addFiles(reflection.GetMessage(message, field), files);
+        for (int k = 0; field->is_repeated() && k < reflection.FieldSize(message, field); ++k)
+            addFiles(reflection.GetRepeatedMessage(message, field, k), files);
+    }
+}
+
 }  // namespace
+
+bool isPath(std::string_view source) {
+    return source.find('/') != std::string_view::npos || source.ends_with(".json");
+}
 
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides,
                    Progress* progress) {
@@ -95,6 +110,23 @@ Result<Scene> load(const std::string& source, std::string_view deviceKind, const
     return fail(ErrorKind::Input, shown(source),
                 fmt::format("is not the name of a scene; there are {}. A file is named with its ending, .json",
                             fmt::join(names(), ", ")));
+}
+
+std::vector<Error> structuralMistakesOf(const std::string& path) {
+    const auto text = readText(path);
+    if (!text) return {text.error()};
+    return structuralErrors(*text, path);
+}
+
+std::vector<std::string> filesNamedIn(const std::string& path) {
+    const auto text = readText(path);
+    if (!text) return {};
+    const auto message = parseJson(*text, path);
+    if (!message) return {};
+    std::vector<std::string> files;
+    addFiles(*message, files);
+    for (std::string& file : files) file = (std::filesystem::path(path).parent_path() / file).string();
+    return files;
 }
 
 std::vector<Error> mistakesOf(const std::string& path) {

@@ -18,7 +18,7 @@ constexpr std::uint32_t maxObstacles = 1000;
 constexpr std::uint64_t maxObstaclePairs = 30'000'000;  // every sphere meets each obstacle, in each substep
 constexpr std::uint32_t maxGroups = 10'000;             // all are sent to every viewer, again with each new group
 constexpr std::size_t longestName = 200;                // bytes; of a scene and of a group
-constexpr std::size_t longestAdvice = 500;              // bytes; of what viewers may try
+constexpr std::size_t longestAdvice = 500;              // bytes; of `whatToTry`
 constexpr std::size_t maxSinks = 8;
 constexpr std::uint32_t maxSubsteps = 1'000'000;
 
@@ -41,6 +41,15 @@ Result<Scene> load(const std::string& source, std::string_view deviceKind, const
 // Returns all structural mistakes of the scene's file, or else the first mistake that load() finds; empty if load()
 // accepts it. Mistakes are "file:line:column: field.path". At most mostMistakes are returned.
 std::vector<Error> mistakesOf(const std::string& path);
+
+// Returns the structural mistakes alone, without building the scene.
+std::vector<Error> structuralMistakesOf(const std::string& path);
+
+// Returns true if load() takes it for a path.
+bool isPath(std::string_view source);
+
+// Returns the paths of the files that the scene's file names. Empty if it cannot be read.
+std::vector<std::string> filesNamedIn(const std::string& path);
 
 // An inline scene, as a client sends it: may not name files. Errors carry the field path.
 Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {}, Progress* progress = nullptr);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "scene/group.h"
+
 namespace spherule::scene {
 
 namespace {
@@ -15,7 +17,7 @@ constexpr double largestDensity = 1e9;    // kg/m^3
 constexpr double softest = 1e-3;          // Pa
 constexpr double stiffest = 1e15;
 
-Material readMaterial(Check& check, const v1::Material& message, const std::string& field) {
+Material readValues(Check& check, const v1::Material& message, const std::string& field) {
     Material material{.name = message.name()};
     const auto read = [&](bool given, double value, double low, double high, const char* member, const char* unit,
                           double& target) {
@@ -36,21 +38,24 @@ Material readMaterial(Check& check, const v1::Material& message, const std::stri
 
 }  // namespace
 
+Material readMaterial(Check& check, const v1::Material& message, std::span<const Material> others, bool first,
+                      const std::string& field) {
+    checkName(check, message.name(), at(field, "name"));
+    Material material = readValues(check, message, field);
+    if (!first && material.name.empty())
+        check.refuse(at(field, "name"), "is missing; only the first material may go without");
+    else if (std::ranges::find(others, material.name, &Material::name) != others.end())
+        check.refuse(at(field, "name"), fmt::format("is {}, the name of another material", shown(material.name)));
+    return material;
+}
+
 std::vector<Material> readMaterials(Check& check, const google::protobuf::RepeatedPtrField<v1::Material>& messages) {
     std::vector<Material> materials;
     const auto count = static_cast<std::size_t>(messages.size());
     if (count > maxMaterials)
         check.refuse("materials", fmt::format("has {} entries, must have at most {}", count, maxMaterials));
     for (std::size_t k = 0; k < count && check.ok(); ++k) {
-        const std::string field = at("materials", k);
-        Material material = readMaterial(check, messages[static_cast<int>(k)], field);
-        const auto same = [&](const Material& other) { return other.name == material.name; };
-        if (k > 0 && material.name.empty()) {
-            check.refuse(at(field, "name"), "is missing; only the first material may go without");
-        } else if (std::ranges::any_of(materials, same)) {
-            check.refuse(at(field, "name"),
-                         fmt::format("is {}, the name of an earlier material", shown(material.name)));
-        }
+        Material material = readMaterial(check, messages[static_cast<int>(k)], materials, k == 0, at("materials", k));
         materials.push_back(std::move(material));
     }
     if (materials.empty()) materials.emplace_back();
@@ -70,32 +75,40 @@ std::uint8_t materialNamed(Check& check, const std::string& name, const std::vec
     return 0;
 }
 
+MaterialPair readPair(Check& check, const v1::MaterialPair& message, const std::vector<Material>& materials,
+                      const std::string& field) {
+    for (const auto& [name, member] : {std::pair(message.a(), "a"), std::pair(message.b(), "b")})
+        if (name.empty()) check.refuse(at(field, member), "is missing; give the name of a material");
+    MaterialPair pair;
+    pair.a = materialNamed(check, message.a(), materials, at(field, "a"));
+    pair.b = materialNamed(check, message.b(), materials, at(field, "b"));
+    const auto read = [&](bool given, double value, double high, const char* member) {
+        return given ? std::optional(check.within(value, 0, high, at(field, member))) : std::nullopt;
+    };
+    pair.restitution = read(message.has_restitution(), message.restitution(), 1, "restitution");
+    pair.friction = read(message.has_friction(), message.friction(), largestFriction, "friction");
+    pair.rollingResistance =
+        read(message.has_rolling_resistance(), message.rolling_resistance(), largestFriction, "rollingResistance");
+    pair.spinningResistance =
+        read(message.has_spinning_resistance(), message.spinning_resistance(), largestFriction, "spinningResistance");
+    return pair;
+}
+
+bool samePair(const MaterialPair& one, const MaterialPair& other) {
+    return std::minmax(one.a, one.b) == std::minmax(other.a, other.b);
+}
+
 std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::RepeatedPtrField<v1::MaterialPair>& messages,
                                     const std::vector<Material>& materials) {
     std::vector<MaterialPair> pairs;
     for (std::size_t k = 0; k < static_cast<std::size_t>(messages.size()) && check.ok(); ++k) {
         const v1::MaterialPair& message = messages[static_cast<int>(k)];
         const std::string field = at("pairs", k);
-        for (const auto& [name, member] : {std::pair(message.a(), "a"), std::pair(message.b(), "b")})
-            if (name.empty()) check.refuse(at(field, member), "is missing; give the name of a material");
-        MaterialPair pair;
-        pair.a = materialNamed(check, message.a(), materials, at(field, "a"));
-        pair.b = materialNamed(check, message.b(), materials, at(field, "b"));
-        const auto same = [&](const MaterialPair& other) {
-            return std::minmax(other.a, other.b) == std::minmax(pair.a, pair.b);
-        };
+        MaterialPair pair = readPair(check, message, materials, field);
+        const auto same = [&](const MaterialPair& other) { return samePair(other, pair); };
         if (check.ok() && std::ranges::any_of(pairs, same))
             check.refuse(field,
                          fmt::format("is of {} and {}, as an earlier one is", shown(message.a()), shown(message.b())));
-        const auto read = [&](bool given, double value, double high, const char* member) {
-            return given ? std::optional(check.within(value, 0, high, at(field, member))) : std::nullopt;
-        };
-        pair.restitution = read(message.has_restitution(), message.restitution(), 1, "restitution");
-        pair.friction = read(message.has_friction(), message.friction(), largestFriction, "friction");
-        pair.rollingResistance =
-            read(message.has_rolling_resistance(), message.rolling_resistance(), largestFriction, "rollingResistance");
-        pair.spinningResistance = read(message.has_spinning_resistance(), message.spinning_resistance(),
-                                       largestFriction, "spinningResistance");
         pairs.push_back(pair);
     }
     return pairs;

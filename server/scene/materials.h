@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "scene/check.h"
@@ -12,6 +14,18 @@ constexpr double largestFriction = 100;  // also for rolling and spinning resist
 
 // Returns the scene's materials; one with the defaults if there are none.
 std::vector<Material> readMaterials(Check& check, const google::protobuf::RepeatedPtrField<v1::Material>& messages);
+
+// Reads a material beside others. Its name must differ from theirs, and may be empty only if it is `first`. `field`:
+// its place in the message.
+Material readMaterial(Check& check, const v1::Material& message, std::span<const Material> others, bool first,
+                      const std::string& field);
+
+// Reads the values between two materials.
+MaterialPair readPair(Check& check, const v1::MaterialPair& message, const std::vector<Material>& materials,
+                      const std::string& field);
+
+// Returns true if the pair is of the same two materials.
+bool samePair(const MaterialPair& one, const MaterialPair& other);
 
 std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::RepeatedPtrField<v1::MaterialPair>& messages,
                                     const std::vector<Material>& materials);

@@ -9,7 +9,7 @@
 #include "scene/quality.h"
 #include "scene/shapes.h"
 #include "scene/surroundings.h"
-#include "spherule/v1/control.pb.h"
+#include "spherule/v1/scene_parts.pb.h"
 
 namespace spherule::scene {
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """meshes.py SHAPE [--obj | --data]: writes a closed mesh to the standard output.
 
-SHAPE is mixer (a shaft with four blades), screw (a shaft with a helix), bottle, drum (64 sides, with four lifters) or landscape. Lengths are in metres.
+SHAPE is mixer (a shaft with four blades), screw (a shaft with a helix), bottle, drum (64 sides, with four lifters),
+landscape, hourglass (the free space), walls or roofs (of the same six houses). Lengths are in metres.
 The output is a binary STL, or an OBJ. With --data it is Base64 for the field `data` of a mesh in a scene."""
 import base64
 import math
@@ -109,6 +110,58 @@ def landscape(cells=64, side=4.0, depth=0.5):
     return triangles
 
 
+def hourglass(neck=0.061, widest=0.5, half=1.0, sides=40):
+    """The free space: two bulbs and a neck around the origin."""
+    upper = [(neck, 0.0)]
+    for k in range(1, 11):  # from the neck to the widest place
+        share = k / 10
+        upper.append((neck + (widest - neck) * (1 - math.cos(math.pi * share)) / 2, 0.66 * half * share))
+    for k in range(1, 6):  # round to the flat end
+        angle = math.pi / 2 * k / 5
+        upper.append((widest - 0.16 * half * (1 - math.cos(angle)), half * (0.84 + 0.16 * math.sin(angle))))
+    lower = [(r, -z) for r, z in reversed(upper[1:])]
+    return lathe([(0, -half)] + lower + upper + [(0, half)], sides)
+
+
+# x, y, angle, width, depth, height
+HOUSES = [(6.05, -1.05, 0.2, 0.62, 0.46, 0.4), (6.2, 0.15, -0.15, 0.55, 0.55, 0.5), (6.0, 1.25, 0.35, 0.6, 0.44, 0.38),
+          (7.35, -0.55, -0.25, 0.5, 0.42, 0.36), (7.3, 0.85, 0.1, 0.66, 0.46, 0.42), (8.3, 0.05, 0.3, 0.5, 0.44, 0.36)]
+
+
+def floor_below(x):
+    """Height of the slope of the scene landslide along its middle; the houses stand on it."""
+    return 3.8 - 0.6 * x if x < 4 else 1.4 - 0.2 * (x - 4) - 0.28 * (1 - math.exp((4 - x) / 0.7))
+
+
+def placed(house, triangles):
+    x, y, angle, width, depth, height = house
+    cos, sin = math.cos(angle), math.sin(angle)
+    base = floor_below(x + 0.3)
+    return [tuple((x + cos * u - sin * v, y + sin * u + cos * v, base + w) for u, v, w in triangle)
+            for triangle in triangles]
+
+
+def walls():
+    triangles = []
+    for house in HOUSES:
+        width, depth, height = house[3:]
+        triangles += placed(house, box((-width / 2, -depth / 2, -0.25), (width / 2, depth / 2, height)))
+    return triangles
+
+
+def roofs():
+    """Prisms, each a little above its house and wider than it, so that both are closed."""
+    triangles = []
+    for house in HOUSES:
+        width, depth, height = house[3:]
+        u, v, low, high = width / 2 + 0.06, depth / 2 + 0.07, height + 0.002, height + 0.3
+        a, b, c, d = (-u, -v, low), (u, -v, low), (u, v, low), (-u, v, low)
+        e, f = (-u, 0, high), (u, 0, high)
+        triangles += placed(house, [(a, c, b), (a, d, c), (a, b, f), (a, f, e), (c, d, e), (c, e, f), (a, e, d),
+                                    (b, c, f)])
+    return triangles
+
+
 def stl(triangles):
     parts = [b"spherule".ljust(80), struct.pack("<I", len(triangles))]
     for triangle in triangles:
@@ -130,7 +183,8 @@ def obj(triangles):
     return "".join(lines + faces).encode()
 
 
-SHAPES = {"mixer": mixer, "screw": screw, "bottle": bottle, "drum": drum, "landscape": landscape}
+SHAPES = {"mixer": mixer, "screw": screw, "bottle": bottle, "drum": drum, "landscape": landscape,
+          "hourglass": hourglass, "walls": walls, "roofs": roofs}
 
 
 def main(arguments):

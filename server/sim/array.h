@@ -21,9 +21,11 @@ constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 
 // An array has one element for each of these. "End": one element more.
 enum class Extent : std::uint8_t {
-    Sphere,
+    Sphere,           // with movers, and one more that is no sphere: Parameters.farSlot
     SphereAndColour,  // each sphere, once for each colour of bundles
-    PaddedSphere,     // with PAIR_PADDING more at the end
+    Entry,            // each sphere, and each mover once more
+    PaddedEntry,      // with PAIR_PADDING more at the end
+    Mover,            // each sphere that may be a mover
     RememberedWall,   // each wall contact that a sphere remembers
     CellEnd,
     Group,           // of 2 x 2 x 2 cells
@@ -35,7 +37,7 @@ enum class Extent : std::uint8_t {
     CarriedContact,  // CARRIED_MOST for each sphere
     ScanBlock,
     ScanSuperBlock,
-    LaunchRow,
+    LaunchRow,  // two tables of them
     Obstacle,
     ObstacleListWord,
     MaterialPair,

@@ -138,6 +138,8 @@ class Simulation::CommandHandler {
     Result<Outcome> operator()(const Spawn& spawn);
     Result<Outcome> operator()(const Remove& remove);
     Result<Outcome> operator()(const ChangeObstacle& change) { return simulation_.changeObstacle(change); }
+    Result<Outcome> operator()(const ChangePart& change) { return simulation_.changePart(change); }
+    Result<Outcome> operator()(const RemoveGroup& remove) { return simulation_.removeGroup(remove); }
     Result<Outcome> operator()(const Push& push);
     Result<Outcome> operator()(const Pull& pull);
     Result<Outcome> operator()(const Release& release);
@@ -192,6 +194,7 @@ Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool distur
         closeContactSums();
         scene_ = std::move(changed);
         maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
+        ++partsVersion_;
         writeConstants(*pipeline_, scene_);
         useSubsteps(scene_.quality.substeps);
         openContactSums();

@@ -11,6 +11,7 @@
 
 #include "core/progress.h"
 #include "core/result.h"
+#include "scene/part_changes.h"
 #include "scene/scene.h"
 #include "sim/inspection.h"
 #include "sim/statistics.h"
@@ -57,6 +58,18 @@ struct ChangeObstacle {
     std::function<Result<std::optional<scene::Obstacle>>(const scene::Scene& scene)> make{};
 };
 
+// Changes a field, an emitter, a material or a group.
+struct ChangePart {
+    // Carries out the change on a scene at its time, and checks the scene. Called again when other kernels are ready,
+    // with the scene as it is then.
+    std::function<Result<scene::PartChange>(scene::Scene& scene)> make{};
+};
+
+// Removes a group with its spheres.
+struct RemoveGroup {
+    std::uint32_t number = 0;
+};
+
 // Gives an impulse to a sphere.
 struct Push {
     std::variant<std::uint64_t, Ray> target{};  // the id of the sphere, or a ray: the first sphere that it meets
@@ -76,14 +89,15 @@ struct Release {
     std::uint64_t session = 0;
 };
 
-using Command = std::variant<Set, Reset, Spawn, Remove, ChangeObstacle, Push, Pull, Release>;
+using Command = std::variant<Set, Reset, Spawn, Remove, ChangeObstacle, ChangePart, RemoveGroup, Push, Pull, Release>;
 
 // The result of a command.
 struct Applied {
     std::uint64_t step = 0;                   // the command holds from this step on
     std::optional<std::uint64_t> sphere{};    // the sphere that a push hit
-    std::optional<std::uint32_t> removed{};   // spheres that a Remove removed
+    std::optional<std::uint32_t> removed{};   // spheres that a Remove or RemoveGroup removed
     std::optional<std::uint32_t> obstacle{};  // number of the obstacle of a ChangeObstacle
+    std::optional<std::uint32_t> number{};    // of the part of a ChangePart or RemoveGroup
     std::optional<Statistics> statistics{};   // of a query
     std::optional<Inspection> inspected{};    // of an inspection
     std::optional<glm::dvec3> force{};        // of the spring of a Pull (N)

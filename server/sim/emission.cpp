@@ -8,12 +8,27 @@
 namespace spherule::sim {
 
 Emission::Emission(const scene::Scene& scene, double time) {
-    for (const scene::Emitter& emitter : scene.emitters) {
-        State& state = emitters_.emplace_back();
-        const double worked = emitter.workedUntil(time);
-        state.next = static_cast<std::uint64_t>(std::ceil(worked * emitter.rate));
-        state.massDue = worked * emitter.massFlow;
-    }
+    for (const scene::Emitter& emitter : scene.emitters) add(emitter, time);
+}
+
+void Emission::add(const scene::Emitter& emitter, double time) {
+    startAt(emitters_.emplace_back(), emitter, time);
+}
+
+void Emission::replace(std::size_t number, const scene::Emitter& emitter, double time) {
+    emitters_[number].waiting.clear();
+    startAt(emitters_[number], emitter, time);
+}
+
+void Emission::remove(std::size_t number) {
+    emitters_.erase(emitters_.begin() + static_cast<std::ptrdiff_t>(number));
+}
+
+// Spheres that were due before `time` are not made.
+void Emission::startAt(State& state, const scene::Emitter& emitter, double time) {
+    const double worked = emitter.workedUntil(time);
+    state.next = static_cast<std::uint64_t>(std::ceil(worked * emitter.rate));
+    state.massDue = worked * emitter.massFlow;
 }
 
 // Adds the spheres that become due in the step, at most `room`. More of them are due in the next step.
@@ -43,6 +58,9 @@ const std::vector<Emission::Birth>& Emission::attempt(const scene::Scene& scene,
         room -= state.waiting.size() - waited;
         for (const Waiting& one : state.waiting) {
             Birth birth{.sphere = one.sphere, .emitter = static_cast<std::uint32_t>(k)};
+            // They may have got other numbers since it became due.
+            birth.sphere.group = scene.emitters[k].group;
+            birth.sphere.material = scene.emitters[k].material;
             const glm::dvec3 place = scene.emitters[k].place(one.number, one.attempts);
             const glm::dvec3 velocity(birth.sphere.velocity);
             const scene::Body body{static_cast<double>(one.sphere.radius), scene.emitters[k].massOf(one.sphere)};

@@ -17,6 +17,12 @@ class Emission {
     // Begins at this time (s simulated): spheres that were due before are not made.
     Emission(const scene::Scene& scene, double time);
 
+    // Adds an emitter behind the others.
+    void add(const scene::Emitter& emitter, double time);
+    // Goes on with another emitter in the place of one. Its counts go on, its waiting spheres are not made.
+    void replace(std::size_t number, const scene::Emitter& emitter, double time);
+    void remove(std::size_t number);
+
     // A sphere that is due, at the place where its present attempt puts it.
     struct Birth {
         scene::Sphere sphere;
@@ -52,6 +58,7 @@ class Emission {
         FlowMeter born;
         std::uint64_t blocked = 0;
     };
+    static void startAt(State& state, const scene::Emitter& emitter, double time);
     static void makeDue(const scene::Emitter& emitter, State& state, double begin, double end, std::size_t room);
 
     std::vector<State> emitters_;

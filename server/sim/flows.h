@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/part_changes.h"
 #include "scene/scene.h"
 #include "sim/emission.h"
 #include "sim/flow_meter.h"
@@ -23,6 +24,8 @@ struct Flows {
     Flows() = default;
     explicit Flows(const scene::Scene& scene);
 
+    // Follows a change of the scene, which is `scene` now, at `time` (s simulated).
+    void follow(const scene::PartChange& change, const scene::Scene& scene, double time);
     // Adds the counts to `statistics`, whose time is set.
     void addTo(Statistics& statistics, const scene::Scene& scene) const;
 

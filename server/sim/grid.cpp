@@ -84,6 +84,17 @@ Grid gridFor(const scene::Bounds& bounds, const RadiusStats& radii, double margi
     return grid;
 }
 
+void addMoverLevel(Grid& grid, const scene::Bounds& bounds, std::uint32_t mostMovers) {
+    const Level& coarsest = grid.coarsest();
+    Level level = levelFor(bounds, static_cast<double>(coarsest.largest), static_cast<double>(grid.margin),
+                           std::max(fewestCells, cellsPerSphere * mostMovers));
+    level.sampleThreshold = coarsest.sampleThreshold;
+    level.first = grid.all();
+    level.firstBundle = grid.bundles();
+    grid.levels.push_back(level);
+    grid.hasMovers = true;
+}
+
 Result<void> checkPeriods(const scene::Bounds& bounds, const Grid& grid) {
     constexpr const char* names[] = {"X", "Y", "Z"};
     const Level& level = grid.coarsest();

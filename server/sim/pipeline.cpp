@@ -17,15 +17,17 @@ namespace spherule::sim {
 
 namespace {
 
-constexpr std::uint32_t workgroup = 64;
+constexpr std::uint32_t workgroup = LAUNCH_THREADS;
 constexpr std::uint32_t maxGroupsPerAxis = 32768;
 static_assert(scene::maxSpheres <= Pipeline::idMask);
 static_assert(scene::maxMaterials <= 1U << (32 - Pipeline::idBits));
 
 // Returns groups x, y, z for a row of the launch table, as the kernels index them, and `count`.
 glm::uvec4 argumentsOf(std::uint32_t row, std::uint32_t count) {
-    const bool countsGroups = row == LAUNCH_GROUPS || row == LAUNCH_BUNDLES || row == LAUNCH_COLOUR ||
-                              row == LAUNCH_LEVEL || row == LAUNCH_CELL_RUNS || row == LAUNCH_LOST_COLOUR;
+    constexpr std::array ofGroups{LAUNCH_GROUPS,    LAUNCH_BUNDLES,     LAUNCH_COLOUR,      LAUNCH_LEVEL,
+                                  LAUNCH_CELL_RUNS, LAUNCH_MOVER_LEVEL, LAUNCH_MOVER_CELLS, LAUNCH_FORGET,
+                                  LAUNCH_MOVERS,    LAUNCH_LOST_COLOUR};
+    const bool countsGroups = std::ranges::find(ofGroups, row) != ofGroups.end();
     const std::uint32_t groups = countsGroups ? count : (count + workgroup - 1) / workgroup;
     const std::uint32_t x = std::min(groups, maxGroupsPerAxis);
     return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, count};
@@ -162,7 +164,7 @@ Result<void> Pipeline::makeArray(const ArraySpec& spec) {
 void Pipeline::writeDispatchSizes() {
     std::vector<glm::uvec4> rows;
     for (const std::uint32_t count : plan_.dispatchSizes)
-        rows.push_back(argumentsOf(static_cast<std::uint32_t>(rows.size()), count));
+        rows.push_back(argumentsOf(static_cast<std::uint32_t>(rows.size()) % LAUNCH_ROWS, count));
     write<glm::uvec4>(Array::DispatchSizes, rows);
 }
 
@@ -238,9 +240,18 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
     for (std::uint32_t slot = 0; slot < state.count(); ++slot) words[slot] |= std::uint32_t{materials[slot]} << idBits;
     write<std::uint32_t>(Array::IdAndMaterial, words);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
-    counters[COUNTER_REBUILD] = REBUILD_DUE;
+    counters[COUNTER_REBUILD] = REBUILD_DUE | REBUILD_ALL;
     write<std::uint32_t>(Array::Counters, counters);
+    placeFarSlot();
     expectRebuild();
+}
+
+// Moves the slot that is no sphere away from all spheres.
+void Pipeline::placeFarSlot() {
+    if (!plan_.grid.hasMovers) return;
+    constexpr float far = 1e18F;  // its square is finite
+    const glm::vec4 place(far, far, far, 0);
+    write<glm::vec4>(Array::Position, std::span<const glm::vec4>(&place, 1), plan_.room);
 }
 
 SlotState Pipeline::download() {
@@ -309,7 +320,7 @@ void Pipeline::setSpheres(std::uint32_t count) {
 }
 
 void Pipeline::requestRebuild() {
-    const std::uint32_t rebuild = REBUILD_DUE;
+    const std::uint32_t rebuild = REBUILD_DUE | REBUILD_ALL;
     write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&rebuild, 1), COUNTER_REBUILD);
     expectRebuild();
 }

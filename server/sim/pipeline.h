@@ -59,8 +59,8 @@ class Pipeline {
     // Returns the state that was kept last, when there were `spheres` spheres. Waits for the device.
     [[nodiscard]] SlotState keptState(std::uint32_t spheres);
 
-    // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. The
-    // lists are rebuilt in the next substep. Call setParameters() next.
+    // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. Their
+    // lists are built in the next substep. Call setParameters() next.
     void append(const State& born, std::span<const std::uint8_t> materials, std::span<const std::uint32_t> handles);
     // Removes the spheres with these handles, wakes the sleepers within their reach, and rebuilds the lists. Call
     // setParameters() next. Waits for the device. Refused, with the state unchanged, if there is no memory for it.
@@ -70,12 +70,20 @@ class Pipeline {
 
     // Returns the new key of a contact with an obstacle (shaders/shared/surfaces.h); nullopt: the contact has ended.
     using NewKey = std::function<std::optional<std::uint32_t>(std::uint32_t key)>;
-    // Takes over the state of a pipeline of other obstacles with the same spheres: see planAsOf(). The lists are
-    // rebuilt in the next substep. Waits for the device.
+    // Takes over the state of a pipeline of other obstacles with the same spheres and cells: see planAsOf(). Both have
+    // room for the same number of spheres and pairs. The lists are rebuilt in the next substep. Waits for the device.
     void takeFrom(Pipeline& before, const NewKey& newKey);
+    // The same for a pipeline of other features with the same obstacles. The lists stay if contacts remember the same.
+    void takeFrom(Pipeline& before);
+    // Makes the array SlotOf, which pipelines without contacts lack until a sphere is removed.
+    Result<void> makeSlotOf();
+    // Gives the spheres other materials and masses. `materials` and `inverseMasses` (1/kg, 0 if fixed) are by handle.
+    // The impulses that
+    // contacts hold stay. Waits for the device.
+    void setMaterials(std::span<const std::uint8_t> materials, std::span<const float> inverseMasses);
     // Wakes the spheres with these handles. Waits for the device.
     void wake(std::span<const std::uint32_t> handles);
-    // Makes new lists in the next substep.
+    // Makes new lists of all spheres in the next substep.
     void requestRebuild();
 
     void substep(bool observed = false);
@@ -166,12 +174,13 @@ class Pipeline {
     void takeWallMemory(Pipeline& before, const NewKey& newKey);
     void rebuildLists();
     void expectRebuild();
+    void placeFarSlot();
     // Launches the kernels of a rebuild in the next substeps: the speeds, or the length of the substep, have changed.
     void awaitSpeeds() { unforeseen_ = substepsAhead; }
     void chooseLaunches();
     void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
-    Result<void> makeSlotOf();
+    [[nodiscard]] bool hasListsAs(const Pipeline& before) const;
     Result<void> makeMissing(Array array, std::uint64_t elements);
     Result<void> makePulls();
     void moveLastInto(std::vector<std::uint32_t> slots);
@@ -213,6 +222,8 @@ class Pipeline {
     unsigned unforeseen_ = 0;      // substeps for which COUNTER_REBUILD does not tell whether a rebuild may be due
     bool launchesRebuild_ = true;  // in this substep
     bool listsMayBeMissing_ = true;
+    bool moversMayExist_ = true;
+    std::uint32_t unlistedBirths_ = 0;  // spheres that were added since the last substep
     std::uint64_t launches_ = 0;
 };
 

@@ -7,12 +7,12 @@
 // The launches of a substep.
 namespace spherule::sim {
 
-// The next lists of overfull cells depend on two counters, which must count only the lists of substeps.
+// The next lists depend on these counters, which must count only the lists of substeps.
 void Pipeline::rebuildLists() {
     const auto before = read<std::uint32_t>(Array::Counters);
-    launchesRebuild_ = listsMayBeMissing_ = true;
+    launchesRebuild_ = listsMayBeMissing_ = moversMayExist_ = true;
     run(substep_, LaunchSet::Rebuild);
-    for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
+    for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS, COUNTER_LEAVING, COUNTER_AWAKE_MOVERS})
         write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
     listsPending_ = false;
 }
@@ -23,6 +23,7 @@ void Pipeline::substep(bool observed) {
     run(substep_, observed ? LaunchSet::ObservedSubstep : LaunchSet::Substep);
     if (rebuildWords_) rebuildWords_->start(buffer(Array::Counters), COUNTER_REBUILD * sizeof(std::uint32_t));
     listsPending_ = false;
+    unlistedBirths_ = 0;
     impactsPending_ = impactsPending_ || observed;
 }
 
@@ -38,6 +39,7 @@ void Pipeline::chooseLaunches() {
     }
     launchesRebuild_ = (word & (REBUILD_DUE | REBUILD_SOON | REBUILD_WAS_SOON)) != 0;
     listsMayBeMissing_ = launchesRebuild_ || rebuiltBefore || (word & LISTS_MISSING) != 0;
+    moversMayExist_ = launchesRebuild_ || rebuiltBefore || (word & MOVERS_EXIST) != 0;
 }
 
 std::uint32_t Pipeline::longestChain() {
@@ -62,9 +64,12 @@ std::uint32_t Pipeline::longestChain() {
 }
 
 void Pipeline::run(const std::vector<BoundLaunch>& launches, LaunchSet set) {
+    const auto isLaunched = [&](std::uint32_t row) {
+        if (row == LAUNCH_UNLISTED) return listsMayBeMissing_;
+        return row == LAUNCH_MOVERS ? moversMayExist_ : launchesRebuild_;
+    };
     const auto skipped = [&](const LaunchSpec& spec) {
-        if (spec.launchRow && !(*spec.launchRow == LAUNCH_UNLISTED ? listsMayBeMissing_ : launchesRebuild_))
-            return true;
+        if (spec.launchRow && !isLaunched(*spec.launchRow)) return true;
         const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::ContactMemory;
         switch (set) {
             case LaunchSet::Rebuild:

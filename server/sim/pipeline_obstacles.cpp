@@ -1,4 +1,4 @@
-// The part of Pipeline that goes on with other obstacles.
+// The part of Pipeline that goes on with other obstacles or features.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +25,44 @@ bool dependsOnObstacles(Array array) {
 
 }  // namespace
 
+// Returns true if the lists and the memory of contacts have the same form in both.
+bool Pipeline::hasListsAs(const Pipeline& before) const {
+    for (std::size_t k = 0; k < arrayCount; ++k) {
+        const auto array = static_cast<Array>(k);
+        switch (typeOf(array).extent) {
+            case Extent::Pair:
+            case Extent::PairTwice:
+            case Extent::BundleWord:
+            case Extent::RememberedWall:
+            case Extent::Obstacle:
+            case Extent::ObstacleListWord:
+                if (plan_.bytesOf(array) != before.plan_.bytesOf(array)) return false;
+                break;
+            default:
+                break;
+        }
+    }
+    return true;
+}
+
+void Pipeline::takeFrom(Pipeline& before) {
+    if (!hasListsAs(before)) return takeFrom(before, [](std::uint32_t key) { return std::optional(key); });
+    setSpheres(before.plan_.spheres);
+    for (const ArraySpec& spec : plan_.arrays) {
+        const Extent extent = typeOf(spec.array).extent;
+        if (extent == Extent::MaterialPair || extent == Extent::SurfaceSumWord || !before.plan_.has(spec.array))
+            continue;
+        const std::size_t bytes = std::min(spec.bytes, before.plan_.bytesOf(spec.array));
+        device_.copy(before.buffer(spec.array), 0, bytes, buffer(spec.array), 0);
+    }
+    substepLength_ = before.substepLength_;
+    impactsPending_ = before.impactsPending_;
+    listsPending_ = before.listsPending_;
+    awaitSpeeds();
+}
+
 void Pipeline::takeFrom(Pipeline& before, const NewKey& newKey) {
+    setSpheres(before.plan_.spheres);
     for (const ArraySpec& spec : plan_.arrays) {
         if (dependsOnObstacles(spec.array) || !before.plan_.has(spec.array)) continue;
         const std::size_t bytes = std::min(spec.bytes, before.plan_.bytesOf(spec.array));

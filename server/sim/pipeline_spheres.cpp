@@ -33,6 +33,8 @@ Result<void> Pipeline::growSpheres(std::uint32_t room, const scene::Scene& scene
         device_.finish();  // the driver frees the array before the next one is made
     }
     plan_.room = room;
+    placeFarSlot();
+    if (plan_.grid.hasMovers) requestRebuild();  // pairs of movers have the old far slot
     return {};
 }
 
@@ -88,7 +90,17 @@ void Pipeline::append(const State& born, std::span<const std::uint8_t> materials
     for (std::size_t k = 0; k < words.size(); ++k) words[k] |= std::uint32_t{materials[k]} << idBits;
     write<std::uint32_t>(Array::IdAndMaterial, words, first);
     setSpheres(first + static_cast<std::uint32_t>(handles.size()));
-    requestRebuild();
+    const bool awake = std::ranges::all_of(born.velocity, [](const glm::vec4& v) { return v.w > 0; });
+    if (!plan_.grid.hasMovers || !awake) {
+        requestRebuild();
+        return;
+    }
+    // They are in no list yet, and become movers.
+    const std::vector<glm::vec4> nowhere(handles.size(), glm::vec4(1e18F, 0, 0, 0));
+    write<glm::vec4>(Array::ListReference, nowhere, first);
+    unlistedBirths_ += static_cast<std::uint32_t>(handles.size());
+    write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&unlistedBirths_, 1), COUNTER_BORN);
+    expectRebuild();
 }
 
 Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
@@ -107,6 +119,7 @@ Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
         write<glm::vec4>(Array::Position, position);
         requestRebuild();
         rebuildLists();
+        write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&left, 1), COUNTER_SORTED);
     } else {
         std::vector<std::uint32_t> slots;
         for (std::uint32_t slot = 0; slot < words.size(); ++slot)
@@ -117,7 +130,6 @@ Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
     return {};
 }
 
-// Makes the array SlotOf: in scenes without contacts, slots are handles until a sphere is removed.
 Result<void> Pipeline::makeSlotOf() {
     return makeMissing(Array::SlotOf, plan_.room);
 }

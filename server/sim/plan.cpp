@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "scene/load.h"
 #include "scene/shapes.h"
@@ -16,6 +17,7 @@ namespace spherule::sim {
 namespace {
 
 constexpr std::uint32_t pairsPerSphere = 8;  // listed; a dense bed has about 6 within the margin
+constexpr std::uint32_t pairsPerMover = 6;   // in addition, for the two rooms of their pairs (shaders/shared/movers.h)
 constexpr std::uint32_t fewestPairs = 1024;
 constexpr std::uint32_t wallHistoryLimit = 8;
 
@@ -47,11 +49,15 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
     const std::uint32_t scanned = cells + 1;
     switch (extent) {
         case Extent::Sphere:
-            return n;
+            return n + (plan.grid.hasMovers ? 1 : 0);
         case Extent::SphereAndColour:
             return 8 * n;
-        case Extent::PaddedSphere:
-            return n + PAIR_PADDING;
+        case Extent::Entry:
+            return n + plan.mostMovers;
+        case Extent::PaddedEntry:
+            return n + plan.mostMovers + PAIR_PADDING;
+        case Extent::Mover:
+            return plan.mostMovers;
         case Extent::RememberedWall:
             return n * plan.maxWallHistory;
         case Extent::CellEnd:
@@ -78,7 +84,7 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::ScanSuperBlock:
             return blocksOf(blocksOf(scanned, SCAN_BLOCK), SCAN_BLOCK);
         case Extent::LaunchRow:
-            return LAUNCH_ROWS;
+            return 2 * LAUNCH_ROWS;
         case Extent::Obstacle:
             return scene.obstacles.size() +
                    static_cast<std::uint64_t>(
@@ -120,7 +126,23 @@ std::uint32_t invocationsOver(Varying what, const Plan& plan) {
     return 0;
 }
 
-// Returns `count` of the launches per row of the launch table.
+// Returns for how many spheres lists of movers have room. If more spheres are awake, lists of all spheres cost little
+// more.
+std::uint32_t mostMoversOf(std::uint32_t spheres) {
+    constexpr std::uint32_t least = 1024;
+    constexpr std::uint32_t most = 1U << 17U;
+    return std::min(spheres / 8 + least, most);
+}
+
+// Returns for how many spheres a new plan has lists of movers. They are worth while if spheres sleep, and if lists of
+// all spheres take long.
+std::uint32_t newMovers(const Features& features, std::uint32_t spheres, const Grid& grid) {
+    constexpr std::uint32_t few = 2000;
+    const bool sleeps = features.has(Feature::Sleep) && !features.has(Feature::Periodic);
+    return sleeps && grid.sizes() == 1 && spheres >= few ? mostMoversOf(spheres) : 0;
+}
+
+// Returns `count` of the launches per row of the launch table: for lists of all spheres, then for lists of movers.
 std::vector<std::uint32_t> launchTable(const Plan& plan) {
     const std::uint32_t cells = plan.grid.all() + 1;
     const std::uint32_t cellBlocks = blocksOf(cells, SCAN_BLOCK);
@@ -139,9 +161,29 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
     rows[LAUNCH_COLOUR] = colour;
     rows[LAUNCH_LEVEL] = 8 * colour;
     rows[LAUNCH_CELL_RUNS] = blocksOf(plan.grid.all(), ORDERED_CELLS);
+    rows[LAUNCH_COLUMNS] = plan.spheres;
     rows[LAUNCH_LOST_SPHERES] = plan.spheres;
     rows[LAUNCH_LOST_COLOUR] = colour;
     rows[LAUNCH_UNLISTED] = colour;
+    if (!plan.grid.hasMovers) {
+        rows.resize(std::size_t{2} * LAUNCH_ROWS);
+        return rows;
+    }
+    const Level& level = plan.grid.levels.back();
+    rows[LAUNCH_MOVER_LEVEL] = 8 * level.bundlesOfColour();
+    rows[LAUNCH_MOVERS] = level.bundlesOfColour();
+    std::vector<std::uint32_t> alone = rows;
+    for (const std::uint32_t row : {LAUNCH_BLOCKS, LAUNCH_SUPERBLOCKS, LAUNCH_OUTSIDE, LAUNCH_LEVEL, LAUNCH_COLUMNS})
+        alone[row] = 0;
+    alone[LAUNCH_SPHERES] = plan.mostMovers;  // rebuild_decide.comp sets fewer
+    alone[LAUNCH_CELLS] = level.all() + 1;
+    alone[LAUNCH_GROUPS] = level.all() / 8;
+    alone[LAUNCH_FIT] = rows[LAUNCH_MOVER_LEVEL];
+    alone[LAUNCH_CELL_RUNS] = blocksOf(level.all(), ORDERED_CELLS);
+    alone[LAUNCH_COLLECT] = plan.spheres;
+    alone[LAUNCH_MOVER_CELLS] = 1;
+    alone[LAUNCH_FORGET] = plan.grid.bundles();
+    rows.insert(rows.end(), alone.begin(), alone.end());
     return rows;
 }
 
@@ -149,7 +191,9 @@ void updateLaunches(Plan& plan) {
     for (auto* launches : {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd, &plan.figures,
                            &plan.inspection, &plan.births})
         for (LaunchSpec& launch : *launches) {
-            if (launch.launchRow) launch.count = plan.dispatchSizes.at(*launch.launchRow);
+            if (launch.launchRow)
+                launch.count = std::max(plan.dispatchSizes.at(*launch.launchRow),
+                                        plan.dispatchSizes.at(LAUNCH_ROWS + *launch.launchRow));
             if (launch.over != Varying::Nothing) launch.count = invocationsOver(launch.over, plan);
         }
 }
@@ -224,7 +268,7 @@ std::uint32_t mostBatches(const Plan& plan) {
 namespace {
 
 Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t spheres, std::uint32_t room,
-              const RadiusStats& radii, std::uint32_t pairCapacity) {
+              const RadiusStats& radii, std::uint32_t pairCapacity, std::optional<std::uint32_t> mostMovers) {
     Plan plan;
     plan.features = features;
     plan.model = scene.quality.model;
@@ -233,11 +277,15 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
     plan.periods = scene.bounds.periods();
     if (features.has(Feature::Contacts)) {
         plan.grid = gridFor(scene.bounds, radii, marginInRadii(features));
+        plan.mostMovers = mostMovers.value_or(newMovers(features, spheres, plan.grid));
+        if (plan.mostMovers > 0) addMoverLevel(plan.grid, scene.bounds, plan.mostMovers);
+        plan.features.set(Feature::Movers, plan.grid.hasMovers);
         plan.features.set(Feature::Levels, plan.grid.levels.size() > 1);
         plan.pairCapacity = pairCapacity != 0
                                 ? pairCapacity
                                 : std::max(fewestPairs, pairsPerSphere * spheres) +
-                                      8 * PAIR_PADDING * static_cast<std::uint32_t>(plan.grid.levels.size());
+                                      8 * PAIR_PADDING * static_cast<std::uint32_t>(plan.grid.levels.size()) +
+                                      pairsPerMover * plan.mostMovers;
         plan.dispatchSizes = launchTable(plan);
     }
     if (features.has(Feature::Meshes)) plan.meshes = meshTablesFor(scene, radii.largest);
@@ -266,11 +314,13 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
 
 Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
              std::uint32_t pairCapacity) {
-    return planWith(scene, features, spheres, roomFor(spheres), radii, pairCapacity);
+    return planWith(scene, features, spheres, roomFor(spheres), radii, pairCapacity, std::nullopt);
 }
 
 Plan planAsOf(const Plan& other, const scene::Scene& scene, const Features& features, const RadiusStats& radii) {
-    return planWith(scene, features, other.spheres, other.room, radii, other.pairCapacity);
+    // Without sleep, none moves among sleepers.
+    const std::uint32_t mostMovers = features.has(Feature::Sleep) ? other.mostMovers : 0;
+    return planWith(scene, features, other.spheres, other.room, radii, other.pairCapacity, mostMovers);
 }
 
 }  // namespace spherule::sim

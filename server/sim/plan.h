@@ -64,9 +64,10 @@ struct LaunchSpec {
 struct Plan {
     Features features;
     scene::Model model{};
-    std::uint32_t spheres = 0;  // present spheres
-    std::uint32_t room = 0;     // spheres for which the arrays have room
-    glm::dvec3 periods{};       // m: length of each periodic axis; 0: not periodic
+    std::uint32_t spheres = 0;     // present spheres
+    std::uint32_t room = 0;        // spheres for which the arrays have room
+    std::uint32_t mostMovers = 0;  // spheres that may have lists of their own (shaders/shared/movers.h); 0: none
+    glm::dvec3 periods{};          // m: length of each periodic axis; 0: not periodic
     Grid grid;
     std::uint32_t pairCapacity = 0;
     std::shared_ptr<const MeshTables> meshes{};  // null: the scene has no meshes

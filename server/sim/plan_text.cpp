@@ -1,3 +1,5 @@
+#include <span>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +27,8 @@ std::string whenOf(const LaunchSpec& launch) {
     if (launch.pass == Pass::Statistics) return "on demand";
     if (!launch.launchRow) return "every substep";
     if (*launch.launchRow == LAUNCH_UNLISTED) return "without lists";
+    if (*launch.launchRow == LAUNCH_MOVERS) return "with movers";
+    if (*launch.launchRow >= LAUNCH_COLLECT && *launch.launchRow <= LAUNCH_FORGET) return "on rebuild of movers";
     return *launch.launchRow >= LAUNCH_LOST_SPHERES ? "if contacts are lost" : "on rebuild";
 }
 
@@ -33,25 +37,32 @@ std::vector<Row> rowsOf(const Plan& plan) {
     std::vector<Row> rows;
     for (const auto* launches : {&plan.substep, &plan.newSubstep, &plan.statistics}) {
         for (const LaunchSpec& launch : *launches) {
-            if (rows.empty() || rows.back().kernel != launch.kernel)
-                rows.push_back({launch.pass, launch.kernel, 0, launch.count,
-                                launches == &plan.newSubstep ? "new substep length" : whenOf(launch)});
+            const std::string when = launches == &plan.newSubstep ? "new substep length" : whenOf(launch);
+            if (rows.empty() || rows.back().kernel != launch.kernel || rows.back().when != when)
+                rows.push_back({launch.pass, launch.kernel, 0, launch.count, when});
             ++rows.back().launches;
         }
     }
     return rows;
 }
 
-std::string gridText(const Grid& grid) {
+std::string cellsText(const Level& level) {
+    return fmt::format("{} x {} x {} cells of {:.4g} m", level.cells.x, level.cells.y, level.cells.z, level.cellSize);
+}
+
+std::string gridText(const Plan& plan) {
+    const Grid& grid = plan.grid;
     std::string text;
-    for (const Level& level : grid.levels) {
-        text += fmt::format("{:<11}{} x {} x {} cells of {:.4g} m", text.empty() ? "grid" : "", level.cells.x,
-                            level.cells.y, level.cells.z, level.cellSize);
-        if (grid.levels.size() > 1)
-            text += fmt::format(" for {} spheres of up to {:.4g} m,\n", level.spheres, level.largest);
+    for (const Level& level : std::span(grid.levels).first(grid.sizes())) {
+        text += fmt::format("{:<11}{}", text.empty() ? "grid" : "", cellsText(level));
+        if (grid.sizes() > 1) text += fmt::format(" for {} spheres of up to {:.4g} m,\n", level.spheres, level.largest);
     }
-    return text + fmt::format("{}pairs listed up to a gap of {:.4g} m\n",
-                              grid.levels.size() > 1 ? std::string(11, ' ') : ", ", grid.margin);
+    text += fmt::format("{}pairs listed up to a gap of {:.4g} m\n", grid.sizes() > 1 ? std::string(11, ' ') : ", ",
+                        grid.margin);
+    if (grid.hasMovers)
+        text += fmt::format("{:<11}{} for up to {} spheres that move while most sleep\n", "movers",
+                            cellsText(grid.levels.back()), plan.mostMovers);
+    return text;
 }
 
 // Lists the periodic axes, with their lengths and cells.
@@ -125,7 +136,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan, std::span<cons
         comma = ", ";
     }
     text += "\n";
-    if (plan.features.has(Feature::Contacts)) text += gridText(plan.grid);
+    if (plan.features.has(Feature::Contacts)) text += gridText(plan);
     text += periodsText(plan);
     if (plan.model == scene::Model::Accurate) text += contactText(scene);
     text += fmt::format("\n{:<16}{:>14}{:>16}\n", "array", "bytes", "bytes/sphere");
@@ -165,7 +176,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<cons
     json["cells"] = {coarsest.cells.x, coarsest.cells.y, coarsest.cells.z};
     json["cellSize"] = static_cast<double>(coarsest.cellSize);
     json["levels"] = nlohmann::ordered_json::array();
-    for (const Level& level : plan.grid.levels)
+    for (const Level& level : std::span(plan.grid.levels).first(plan.grid.sizes()))
         json["levels"].push_back({{"cells", {level.cells.x, level.cells.y, level.cells.z}},
                                   {"cellSize", static_cast<double>(level.cellSize)},
                                   {"spheres", level.spheres}});

@@ -54,6 +54,14 @@ Preparation::Preparation(scene::Scene changed, memory::Claim copies, Simulation&
       continues_(&continues),
       edit_(std::move(edit)) {}
 
+Preparation::Preparation(scene::Scene changed, memory::Claim copies, Simulation& continues, ChangePart change)
+    : device_(continues.device_),
+      copies_(std::move(copies)),
+      stage_(Stage::Planning),
+      built_{std::move(changed), {}},
+      continues_(&continues),
+      change_(std::move(change)) {}
+
 Preparation::~Preparation() {
     progress_.cancel();
 }
@@ -81,6 +89,9 @@ Result<void> Preparation::doStage(std::chrono::milliseconds maxWait) {
         case Stage::Allocating:
             return makeNext();
         case Stage::Uploading:
+            if (keepsGrid_ && continues_->plan().has(Array::SlotOf))
+                if (auto made = pipeline_->makeSlotOf(); !made) return made;
+            if (change_) return meetPresent();
             upload();
             return {};
         case Stage::MeasuringOverlaps:
@@ -116,9 +127,14 @@ Result<void> Preparation::makePlan() {
         stage_ = Stage::Done;
         return {};
     }
-    radii_ = continues_ != nullptr ? continues_->radii_ : radiusStatsOf(built_.scene);
-    Plan plan = continues_ != nullptr ? planAsOf(continues_->plan(), built_.scene, featuresOf(built_.scene), radii_)
-                                      : planFor(built_.scene, featuresOf(built_.scene), built_.state.count(), radii_);
+    keepsGrid_ = continues_ != nullptr && (!change_ || continues_->keepsGrid(built_.scene));
+    radii_ = keepsGrid_ ? continues_->radii_ : radiusStatsOf(built_.scene);
+    Features features = featuresOf(built_.scene);
+    // Spheres that are gone may have had other radii.
+    if (keepsGrid_ && continues_->plan().features.has(Feature::Radii)) features.set(Feature::Radii);
+    const auto spheres = static_cast<std::uint32_t>(built_.scene.spheres.size());
+    Plan plan = keepsGrid_ ? planAsOf(continues_->plan(), built_.scene, features, radii_)
+                           : planFor(built_.scene, features, spheres, radii_);
     if (plan.features.has(Feature::Contacts))
         if (auto fits = checkPeriods(built_.scene.bounds, plan.grid); !fits) return fits;
     auto claim = claimFor(device_, plan);
@@ -158,6 +174,54 @@ void Preparation::upload() {
         parametersFor(built_.scene, pipeline_->plan(), radii_, built_.scene.step / built_.scene.quality.substeps));
     maxOverlap_ = maxSafeOverlap(built_.scene);
     stage_ = std::isfinite(maxOverlap_) ? Stage::MeasuringOverlaps : Stage::Done;
+}
+
+// Carries out the change on the scene as it is now. If the plan does not suit it any more, another one is made.
+Result<void> Preparation::meetPresent() {
+    scene::Scene now = continues_->scene_;
+    now.time = continues_->time();
+    auto made = change_->make(now);
+    if (!made) {
+        made.error().kind = ErrorKind::Refused;
+        return tl::unexpected(made.error());
+    }
+    made_ = *made;
+    built_.scene = std::move(now);
+    const Plan& plan = pipeline_->plan();
+    bool suits = plan.features.hasAll(featuresOf(built_.scene)) && keepsGrid_ == continues_->keepsGrid(built_.scene);
+    if (suits) {
+        const auto fits = fitRooms();
+        if (!fits) return tl::unexpected(fits.error());
+        suits = *fits;
+    }
+    if (!suits) {
+        pipeline_.reset();
+        claim_ = {};
+        stage_ = Stage::Planning;
+        return {};
+    }
+    if (!keepsGrid_) {
+        auto state = continues_->liveState();
+        if (!state) return tl::unexpected(state.error());
+        built_.state = std::move(*state);
+    }
+    stage_ = Stage::Done;
+    return {};
+}
+
+// Makes room for the spheres and pairs that the simulation has by now. Returns false if the arrays of the two cannot be
+// the same.
+Result<bool> Preparation::fitRooms() {
+    const Plan& plan = pipeline_->plan();
+    const Plan& present = continues_->plan();
+    const std::uint32_t room = keepsGrid_ ? present.room : continues_->count();
+    if (plan.room < room)
+        if (auto grown = pipeline_->growSpheres(room, built_.scene); !grown) return tl::unexpected(grown.error());
+    if (!keepsGrid_) return true;
+    if (plan.room != room || !(plan.grid == present.grid)) return false;
+    if (plan.pairCapacity < present.pairCapacity)
+        if (auto grown = pipeline_->growPairs(present.pairCapacity); !grown) return tl::unexpected(grown.error());
+    return plan.pairCapacity == present.pairCapacity;
 }
 
 // Measures the deepest overlap: spheres that begin deep in each other would fly apart.

@@ -13,6 +13,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "scene/scene.h"
+#include "sim/commands.h"
 #include "sim/initial_overlaps.h"
 #include "sim/pipeline.h"
 #include "sim/radius_stats.h"
@@ -52,6 +53,9 @@ class Preparation {
     };
     // To go on with other obstacles: the spheres of the simulation stay as they are.
     Preparation(scene::Scene changed, memory::Claim copies, Simulation& continues, ObstacleEdit edit);
+    // To go on with another field, emitter, material or group. The simulation may step and change its spheres
+    // meanwhile: the last piece carries out the change on the scene as it is then.
+    Preparation(scene::Scene changed, memory::Claim copies, Simulation& continues, ChangePart change);
     // Cancels `build` and waits for its thread.
     ~Preparation();
     Preparation(const Preparation&) = delete;
@@ -64,6 +68,8 @@ class Preparation {
     // Does all remaining pieces.
     Result<void> finish();
 
+    // Returns true if the simulation may step until adopt() is called.
+    [[nodiscard]] bool letsStep() const { return change_.has_value(); }
     [[nodiscard]] Progress::Seen progress() const { return progress_.seen(); }
 
     // The result of moving spheres apart that overlapped deeply at the start.
@@ -92,6 +98,8 @@ class Preparation {
     void upload();
     Result<void> measureOverlaps();
     Result<void> resolveOverlaps();
+    Result<void> meetPresent();
+    Result<bool> fitRooms();
 
     compute::Device& device_;
     memory::Claim copies_;
@@ -107,7 +115,10 @@ class Preparation {
     bool appends_ = false;  // the simulation takes the new spheres as they are
     Simulation* continues_ = nullptr;
     ObstacleEdit edit_;
-    double maxOverlap_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
+    std::optional<ChangePart> change_;
+    scene::PartChange made_;
+    bool keepsGrid_ = false;  // the cells, the handles and the memory of contacts stay
+    double maxOverlap_ = 0;   // largest overlap allowed, as a fraction of the smaller radius
     std::unique_ptr<InitialOverlapResolver> resolver_;
     std::optional<ResolvedOverlaps> resolvedOverlaps_;
     std::jthread builder_;  // last member: joined before the members that it uses are destroyed

@@ -71,6 +71,7 @@ void Simulation::openContactSums() {
 // Takes the results of a preparation that is done. Cannot fail.
 void Simulation::install(Preparation& preparation) {
     if (pipeline_) closeContactSums();
+    ++partsVersion_;
     scene_ = std::move(preparation.built_.scene);
     radii_ = preparation.radii_;
     pipeline_ = std::move(preparation.pipeline_);
@@ -114,6 +115,11 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     if (preparation->appends_) {
         append(*preparation);
         return {.step = steps_};
+    }
+    if (preparation->change_) {
+        const scene::PartChange made = preparation->made_;
+        takePart(std::move(preparation->built_.scene), made, preparation.get());
+        return {.step = steps_, .number = made.number};
     }
     if (preparation->continues_ != nullptr) {
         continueWith(*preparation);
@@ -340,7 +346,12 @@ compute::Buffer* Simulation::buffer(Array array) {
 
 void Simulation::readCounters() {
     const auto words = pipeline_->read<std::uint32_t>(Array::Counters);
-    counters_ = {.pairs = words[COUNTER_PAIRS],
+    // The pairs of movers have two rooms.
+    const std::uint32_t pairs =
+        words[COUNTER_MOVER_LISTS] == 0
+            ? words[COUNTER_PAIRS]
+            : words[COUNTER_ALL_PAIRS] + 2 * (words[COUNTER_PAIRS] - words[COUNTER_MOVER_PAIRS]);
+    counters_ = {.pairs = pairs,
                  .unlisted = words[COUNTER_UNLISTED],
                  .sampled = words[COUNTER_SAMPLED],
                  .cutShort = words[COUNTER_CUT_SHORT],

@@ -122,6 +122,10 @@ class Simulation {
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
     [[nodiscard]] double time() const;                                      // s simulated
     [[nodiscard]] std::uint32_t generation() const { return generation_; }  // changes with the spheres or obstacles
+    // Grows when fields, emitters, materials or groups may have changed.
+    [[nodiscard]] std::uint64_t partsVersion() const { return partsVersion_; }
+    // Grows when the names of materials, or groups beside their spheres, have changed.
+    [[nodiscard]] std::uint64_t groupsVersion() const { return groupsVersion_; }
 
   private:
     explicit Simulation(compute::Device& device) : device_(device) {}
@@ -171,6 +175,13 @@ class Simulation {
     Result<Outcome> changeObstacle(const ChangeObstacle& change);
     Result<void> checkWay(const scene::Obstacle& obstacle, const scene::Obstacle* before, const State& state) const;
     void continueWith(Preparation& preparation);
+    Result<Outcome> changePart(const ChangePart& change);
+    Result<Outcome> removeGroup(const RemoveGroup& remove);
+    [[nodiscard]] bool keepsGrid(const scene::Scene& changed) const;
+    [[nodiscard]] bool keepsKernels(const scene::Scene& changed) const;
+    void takePart(scene::Scene changed, const scene::PartChange& change, Preparation* preparation);
+    bool takePipeline(Preparation& preparation, const scene::Scene& changed);
+    void wakeWhere(const scene::Forces& before);
     void wakeAt(const std::vector<scene::Obstacle>& obstacles);
     [[nodiscard]] TimeSpan nextSubstep() const;
     void placeObstacles(double framesAt);
@@ -238,6 +249,8 @@ class Simulation {
     bool stepObserved_ = false;
     ResetScope resetScope_ = ResetScope::Nothing;  // for the preparation under way
     std::uint32_t generation_ = 0;
+    std::uint64_t partsVersion_ = 0;
+    std::uint64_t groupsVersion_ = 0;
 };
 
 }  // namespace spherule::sim

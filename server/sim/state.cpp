@@ -14,10 +14,6 @@ glm::vec4 positionIn(const scene::Scene& scene, const scene::Sphere& sphere) {
     return {glm::vec3(sphere.position - scene.bounds.centre()), sphere.radius};
 }
 
-float inverseMassOf(const scene::Scene& scene, const scene::Sphere& sphere) {
-    return sphere.fixed ? 0.0F : static_cast<float>(1 / massOf(scene, sphere));
-}
-
 }  // namespace
 
 void State::append(const State& more) {
@@ -35,6 +31,10 @@ State stateOf(const scene::Scene& scene) {
 double massOf(const scene::Scene& scene, const scene::Sphere& sphere) {
     const auto r = static_cast<double>(sphere.radius);
     return 4.0 / 3 * std::numbers::pi * r * r * r * scene.materials[sphere.material].density;
+}
+
+float inverseMassOf(const scene::Scene& scene, const scene::Sphere& sphere) {
+    return sphere.fixed ? 0.0F : static_cast<float>(1 / massOf(scene, sphere));
 }
 
 State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres) {

@@ -41,6 +41,8 @@ bool isFixed(const State& state, std::uint32_t id);
 // Returns the mass of a sphere by its volume and density (kg), whether it is fixed or not.
 double massOf(const scene::Scene& scene, const scene::Sphere& sphere);
 double massOf(const State& state, std::uint32_t id);  // infinite if fixed
+// Returns 1 / mass (1/kg) as the device has it; 0 if the sphere is fixed.
+float inverseMassOf(const scene::Scene& scene, const scene::Sphere& sphere);
 double radiusOf(const State& state, std::uint32_t id);
 // The sums are over the spheres that are not fixed.
 glm::dvec3 momentumOf(const State& state);

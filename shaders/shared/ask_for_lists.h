@@ -1,8 +1,10 @@
 // The includer binds `counters` and has included shared/drift.h.
 
-// Sets bits of COUNTER_REBUILD. Reads them first, because all spheres may ask in one substep.
-void askForLists(bool now) {
+// Sets bits of COUNTER_REBUILD. Reads them first, because all spheres may ask in one substep. `all`: lists of movers alone
+// are not enough.
+void askForLists(bool now, bool all) {
     uint bits = now ? REBUILD_DUE | REBUILD_SOON : REBUILD_SOON;
+    if (now && all) bits = bits | REBUILD_ALL;
     if ((SEEN(counters[COUNTER_REBUILD]) & bits) != bits) atomicOr(counters[COUNTER_REBUILD], bits);
 }
 

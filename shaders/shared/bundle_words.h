@@ -18,6 +18,14 @@ bool isActive(uint bundle) {
     return bundles[bundle * BUNDLE_WORDS + 2u] != 0u;
 }
 
+bool mayHaveSleepers(uint bundle) {
+    return (bundles[bundle * BUNDLE_WORDS + 2u] & SLEEPERS) != 0u;
+}
+
+bool hasWakers(uint bundle) {
+    return (bundles[bundle * BUNDLE_WORDS + 2u] & WAKERS) != 0u;
+}
+
 uint endOfBatch(uint bundle, uint batch) {
     return bundles[bundle * BUNDLE_WORDS + 4u + batch];
 }
@@ -26,9 +34,13 @@ uint endOfPairs(uint bundle) {
     return bundles[bundle * BUNDLE_WORDS + 4u + BATCHES];
 }
 
-// The largest speed of a sphere in this substep, relative to the drift (m/s).
-float fastestSpeed() {
-    return sqrt(uintBitsToFloat(bundles[params.bundles * BUNDLE_WORDS + WORD_FASTEST]));
+// The largest speed in this substep of the spheres in a bundle's lists, relative to the drift (m/s).
+float fastestSpeed(uint bundle) {
+    uint words = params.bundles * BUNDLE_WORDS;
+    uint square = bundles[words + WORD_FASTEST];
+    if (HAS(MOVERS) && bundle >= params.levelBundles[params.moverLevel].x)
+        square = max(square, bundles[words + WORD_FASTEST_MOVER]);
+    return sqrt(uintBitsToFloat(square));
 }
 
 // The first element of the contact memory of the present lists.

@@ -11,7 +11,7 @@
 // The includer binds `bundles` if it reads a bundle's pairs.
 
 uint levelOfPhase() {
-    return phase >> 3u;
+    return (phase >> 3u) & 0xfu;
 }
 
 uint bundlesOfColour(uint level) {
@@ -62,10 +62,12 @@ BlockPlace blockOfBundle(uint bundle, uint level, uint part) {
     return place;
 }
 
-// The number of group `k` (0 .. 7) of a block, among the groups of 2 x 2 x 2 cells of all levels.
-uint groupOfBlock(uvec4 cells, BlockPlace block, uint k) {
-    uint x = 2u * block.x + (k & 1u);
-    uint y = 2u * block.y + (k >> 2u);
-    uint z = 2u * block.z + ((k >> 1u) & 1u);
+// The number of a group of 2 x 2 x 2 cells, by its place, among the groups of all levels.
+uint groupNumber(uvec4 cells, uint x, uint y, uint z) {
     return firstCell(cells) / 8u + (y * (cells.z / 2u) + z) * (cells.x / 2u) + x;
+}
+
+// The number of group `k` (0 .. 7) of a block, among the groups of all levels.
+uint groupOfBlock(uvec4 cells, BlockPlace block, uint k) {
+    return groupNumber(cells, 2u * block.x + (k & 1u), 2u * block.y + (k >> 2u), 2u * block.z + ((k >> 1u) & 1u));
 }

@@ -1,9 +1,17 @@
 // The contacts that a sphere owns while the lists are rebuilt. The includer binds `carriedCount` and `counters`.
 //
-// A word of `carriedCount` has two counts of 16 bits, which the lists use in turn. list_reference.comp clears the count
-// of the next lists.
+// A word of `carriedCount` has two counts of 16 bits, which the lists of all spheres use in turn. list_reference.comp
+// clears the count of the next ones. Lists of movers alone use the same count as the lists of all spheres before them,
+// and clear it where they need it (contacts_carry.comp). Each of their rows has COUNTER_MOVER_LISTS, so that older rows
+// are no contacts.
 
 #define FIRST_OWNS 0x80000000u  // in the id of the partner: the owner was the first sphere of the pair
+#define LISTS_SHIFT 24u         // in the id of the partner: the place of COUNTER_MOVER_LISTS, 7 bits
+
+// The partner in a row, with the lists that are built.
+uint partnerWord(uint id) {
+    return id | (counters[COUNTER_MOVER_LISTS] << LISTS_SHIFT);
+}
 
 uint shiftOfCount() {
     return 16u * (counters[COUNTER_LISTS] & 1u);

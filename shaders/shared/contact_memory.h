@@ -4,8 +4,8 @@
 //
 // A pair has PAIR_REMEMBERS if its contact remembers something but zero. The memory of other pairs has any content.
 //
-// Each array has two halves of params.pairCapacity elements. Lists use the halves in turn, so that a rebuild can copy
-// from the old half to the new one. The includer binds `counters`.
+// Each array has two halves of params.pairCapacity elements. The lists of all spheres use the halves in turn, so that a
+// rebuild can copy from the old half to the new one. The includer binds `counters`.
 
 // The first element of the present lists' half.
 uint presentHalf() {

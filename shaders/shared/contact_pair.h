@@ -171,6 +171,7 @@ mask solvePairs(mask where, slots a, slots b, bool remembers) {
     real ma = effectiveInverseMass(va);
     real mb = effectiveInverseMass(vb);
     involved = involved && ma + mb > 0.0f;
+    if (HAS(SLEEP) && !anyLane(involved)) return involved;
     real mass = 1.0f / max(ma + mb, real(1.0e-30f));
     real4 normal = normalAndDistance(d, squared, a, b);
     real3 n = real3(normal);

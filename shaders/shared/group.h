@@ -1,7 +1,7 @@
 // The pairs of a group of 2 x 2 x 2 cells. Its cells are paired with themselves and with their 13 forward neighbours,
 // and its spheres with the spheres of finer levels. The includer defines before
-// `void visitRange(uint a, uint b, uint end)`, which visits the pairs of a with the spheres b .. end - 1, and binds
-// `cellStart` and `position`.
+// `void visitRange(uint a, uint b, uint end)`, which visits the pairs of entry a with the entries b .. end - 1
+// (shared/movers.h), and binds `cellStart` and `position`.
 //
 // A smaller sphere within reach of a larger one lies at most one cell from the larger one's cell, on the larger one's
 // level. Two blocks of one colour and level, whose cells are more than two apart, therefore never touch the same
@@ -58,7 +58,7 @@ uint partsOfChord(uvec4 cells) {
     return chord.start + chord.count > cells.x ? 2u : 1u;
 }
 
-// The sorted spheres from `b` on that the sphere meets in this round: all of `count`, or a sample.
+// The entries from `b` on that the sphere meets in this round: all of `count`, or a sample.
 uvec2 sampleOf(uint b, uint count, uint size, uint sampleRound) {
     // Visits a share of the others now and another share in the next round.
     uint shares = (count + size - 1u) / size;
@@ -74,7 +74,7 @@ uint firstOfChord(uint row) {
     return rowStart(reached, y, z);
 }
 
-// Visits the pairs of a sphere of the cell. Has only one call of visitRange: GLSL compilers copy the function to each
+// Visits the pairs of an entry of the cell. Has only one call of visitRange: GLSL compilers copy the function to each
 // call, which takes seconds.
 void visitSphere(uint a, uint level, uint sampleSize, uint sampleRound) {
     bool sampledHere = false;
@@ -84,7 +84,7 @@ void visitSphere(uint a, uint level, uint sampleSize, uint sampleRound) {
         bool finer = HAS(LEVELS) && pass > 0u;
         uint other = finer ? pass - 1u : level;
         uvec4 cells = cellsOf(other);
-        if (finer) reached = reachOf(position[a], other);
+        if (finer) reached = reachOf(position[slotOfEntry(a)], other);
         uint rows = finer ? reached.rows : 5u;
         for (uint row = 0u; row < rows; ++row) {
             uint first = finer ? firstOfChord(row) : firstOfRow(cells, row);

@@ -70,6 +70,11 @@ struct Parameters {
     float substepRatio;  // present substep over the one before, while impulses are scaled to it
     float quietSpeed;    // m/s; a sphere that stays below it is quiet
     float obstaclePath;  // m: the most by which a surface of an obstacle moves in a substep
+
+    uint mostMovers;     // spheres that may have lists of their own (shared/movers.h)
+    uint farSlot;        // a slot without a sphere, far away from all
+    uint moverLevel;     // the level of movers; 0: there is none
+    uint firstMoverCell; // the first cell of this level
 };
 
 // The contact parameters of two materials: row a, column b of `contactParams`.
@@ -185,7 +190,19 @@ struct SphereStatistics {
 #define COUNTER_SUNK 36u        // spheres in sinks at the end of a step
 #define COUNTER_CUT_SHORT 37u   // bundles or groups of cells whose lists the renderer cut short, since the start
 #define COUNTER_OBSTACLE_PATH 38u // bits of a float (m): the most that obstacles have moved since the lists were built
-#define COUNTER_WORDS 39u
+#define COUNTER_LEAVING 39u     // spheres that soon become movers; any number above params.mostMovers if more do
+#define COUNTER_BORN 40u        // spheres that were added since the lists were built
+// The lists of movers (shared/movers.h):
+#define COUNTER_MOVERS 41u      // spheres in them
+#define COUNTER_MOVERS_ALONE 42u  // not 0: the last lists that were built are of movers alone
+#define COUNTER_MOVER_LISTS 43u // times that they were built since the lists of all spheres were
+#define COUNTER_SORTED 44u      // spheres in the lists of all spheres
+#define COUNTER_MOVER_PAIRS 45u // where their pairs begin
+#define COUNTER_PAIR_LIMIT 46u  // where the room for the pairs of the last lists ends
+#define COUNTER_ALL_PAIRS 47u   // where the pairs of the lists of all spheres end
+#define COUNTER_MOVER_ROOM 48u  // spheres for which the lists of movers that are built have room
+#define COUNTER_AWAKE_MOVERS 49u  // in the last substep
+#define COUNTER_WORDS 50u
 
 // Bits of COUNTER_REBUILD. The host launches the kernels of a rebuild only if one of the first three was set at the end of
 // the substep before the last one.
@@ -193,9 +210,14 @@ struct SphereStatistics {
 #define REBUILD_SOON 2u         // in the last substep, a sphere was SOON_SUBSTEPS away from asking for new lists
 #define REBUILD_WAS_SOON 4u     // the same, if spheres move before rebuild_decide.comp
 #define LISTS_MISSING 8u        // there was no room for the present lists
+#define REBUILD_ALL 16u         // lists of movers alone are not enough
+#define MOVERS_EXIST 32u        // there are lists of movers
 // Three times as many as the host is ahead: a heavy sphere that meets a light one at equal and opposite speeds makes it
 // three times as fast.
 #define SOON_SUBSTEPS 6.0f
+
+// A bit of the phase of wake.comp, above level and colour.
+#define LEAVERS 0x10000u
 
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed
@@ -210,7 +232,7 @@ struct SphereStatistics {
 
 // Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, count). Kernels over bundles,
 // over groups of cells and over runs of cells have a work group for each.
-#define LAUNCH_SPHERES 0u
+#define LAUNCH_SPHERES 0u       // spheres whose lists are built
 #define LAUNCH_CELLS 1u
 #define LAUNCH_BLOCKS 2u
 #define LAUNCH_SUPERBLOCKS 3u
@@ -222,25 +244,39 @@ struct SphereStatistics {
 #define LAUNCH_COLOUR 9u        // bundles of one colour of the largest level
 #define LAUNCH_LEVEL 10u        // bundles of the largest level
 #define LAUNCH_CELL_RUNS 11u    // runs of ORDERED_CELLS cells
-#define LAUNCH_LOST_SPHERES 12u // this row and the next: only if a contact is remembered that the new lists lack
-#define LAUNCH_LOST_COLOUR 13u  // bundles of one colour
-#define LAUNCH_UNLISTED 14u     // in each substep while there are no lists: an invocation for each bundle of a colour
-#define LAUNCH_ROWS 15u
+#define LAUNCH_COLUMNS 12u      // spheres, if all are sorted
+#define LAUNCH_MOVER_LEVEL 13u  // bundles of the level of movers
+#define LAUNCH_COLLECT 14u      // this row to LAUNCH_FORGET: only if lists of movers alone are built. All spheres
+#define LAUNCH_MOVER_CELLS 15u  // one
+#define LAUNCH_FORGET 16u       // bundles
+#define LAUNCH_LOST_SPHERES 17u // this row and the next: only if a contact is remembered that the new lists lack
+#define LAUNCH_LOST_COLOUR 18u  // bundles of one colour
+#define LAUNCH_UNLISTED 19u     // in each substep while there are no lists: an invocation for each bundle of a colour
+#define LAUNCH_MOVERS 20u       // in each substep while there are movers: bundles of a colour of their level
+#define LAUNCH_ROWS 21u
+// `dispatchSizes` has two tables of these rows: for lists of all spheres, and for lists of movers alone.
+
+#define LAUNCH_THREADS 64u      // of a work group of a kernel over spheres
 
 #define ORDERED_CELLS 64u       // cells whose spheres a work group puts in order
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
 #define UNLISTED 0xffffffffu    // pair count of a bundle without a list
+#define ACTIVE 1u               // a sphere of the bundle, or around it, is awake
+#define WAKERS 2u               // such a sphere may wake others
+#define SLEEPERS 4u             // some spheres of the scene sleep
 #define STATISTIC_BLOCK 256u    // spheres per partial sum
 
 // The order of pairs: see shared/bundles.h.
 #define BLOCKS_PER_BUNDLE 4u
 #define HASHED_BATCHES 16u      // the hash of a pair chooses among these
 #define BATCHES 24u             // further pairs of a bundle come one by one
-#define BUNDLE_WORDS 32u        // first pair, listed pairs, active, 0, the ends of the batches, the end of all pairs
+#define BUNDLE_WORDS 32u        // first pair, listed pairs, bits ACTIVE to SLEEPERS, 0, the ends of the batches, the end of all pairs
 // Words behind the last bundle, for the solver, which binds as many buffers as a kernel may.
-#define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float
+#define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float;
+                                // without movers
 #define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
+#define WORD_FASTEST_MOVER 2u   // the largest squared speed of movers
 // Behind these words are rows of contact sums for each bundle and thread (shared/contact_sums.h).
 #define BUNDLE_THREADS 64u      // parts in which the statistics of a bundle are added up
 #define MOST_PAIR_THREADS 256u  // of PAIR_KERNEL

@@ -131,5 +131,5 @@ void checkMotion(uint sphere, vec4 x, vec3 v, vec3 to) {
     }
     if (!HAS(CONTACTS)) return;
     bool now = leavesLists(to, v, reference, storedRadius(x), 0.0f);
-    if (now || leavesLists(to, v, reference, storedRadius(x), SOON_SUBSTEPS)) askForLists(now);
+    if (now || leavesLists(to, v, reference, storedRadius(x), SOON_SUBSTEPS)) askForLists(now, HAS(PERIODIC) || roomOf(reference) != 0.0f);
 }

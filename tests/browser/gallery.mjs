@@ -1,5 +1,5 @@
 // Takes the pictures of the gallery: node tests/browser/gallery.mjs [SCENE...] (SPHERULE names the binary). Not a test.
-// Each shows a scene at a chosen time of a recorded run, so that it is the same on every machine.
+// Each shows a scene of server/scenes at a chosen time of a recorded run, so that it is the same on every machine.
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
@@ -34,21 +34,33 @@ const views = {
   "box-4k": { time: 0.5, colour: "height" },
   "box-10k": { time: 0.5, colour: "height" },
   "box-50k": { time: 0.5, colour: "height" },
+  hourglass: { time: 24, zoom: 1, readme: true },
+  "brazil-nut": { time: 20, zoom: 2 },
+  "snow-globe": { time: 2.4, zoom: 2, readme: true },
+  landslide: { time: 5, zoom: 1, readme: true },
+  gas: { time: 1.6, zoom: 1, readme: true },
+  sorter: { time: 14 },
+  tornado: { time: 9, zoom: 1 },
+  "bowl-1m": { time: 0.7, zoom: 2, quality: "light" },
   "stress-1m": { time: 0, colour: "height", quality: "light" }, // in full quality, software takes minutes for it
-}; // time: s; zoom: steps towards the scene
-const [width, height] = [360, 225]; // px
-const most = 6000; // bytes of a picture
+}; // time: s; zoom: steps towards the scene; readme: README shows a larger picture, too
+const small = { size: [360, 225], most: 6000 }; // px; bytes of a picture
+const large = { size: [720, 450], most: 40_000 };
+const scenes = fileURLToPath(new URL("../../server/scenes", import.meta.url));
 const target = fileURLToPath(new URL("../../web-viewer/src/page/scenes", import.meta.url));
+const images = fileURLToPath(new URL("../../docs/images", import.meta.url));
 
 const folder = mkdtempSync(path.join(tmpdir(), "spherule-gallery-"));
 const browser = await launch();
 const wanted = process.argv.slice(2);
-for (const [name, { time, zoom = 0, quality = "full", colour }] of Object.entries(views)) {
+for (const [name, { time, zoom = 0, quality = "full", colour, readme }] of Object.entries(views)) {
   if (wanted.length > 0 && !wanted.includes(name)) continue;
   const file = path.join(folder, `${name}.sph`);
-  await spherule("run", name, "--device", "cpu", "--for", `${time + 0.05}s`, "--record", file);
+  const scene = path.join(scenes, `${name}.json`);
+  await spherule("run", scene, "--device", "cpu", "--for", `${time + 0.05}s`, "--record", file);
   const server = await play(file);
-  const page = await open(browser, server.url, { size: [960, 600], picture: quality, colour });
+  const [width, height] = readme ? [1440, 900] : [960, 600]; // px of the page; the picture has half as many
+  const page = await open(browser, server.url, { size: [width, height], picture: quality, colour });
   await server.ctl("pause");
   await server.ctl("seek", String(time));
   await when(page, (then) => Math.abs((spherule.shown?.time ?? -1) - then) < 0.04, time);
@@ -57,9 +69,11 @@ for (const [name, { time, zoom = 0, quality = "full", colour }] of Object.entrie
   await page.waitForTimeout(500); // the camera learns of it
   await cameraRests(page);
   await settled(page);
-  const shot = await page.screenshot({ clip: { x: 0, y: 0, width: 960, height: 600 }, timeout: 0 });
-  const picture = await page.evaluate(compressed, [shot.toString("base64"), width, height, most]);
-  writeFileSync(path.join(target, `${name}.webp`), Buffer.from(picture.split(",")[1], "base64"));
+  const shot = await page.screenshot({ clip: { x: 0, y: 0, width, height }, timeout: 0 });
+  for (const [place, { size, most }] of [[target, small], ...(readme ? [[images, large]] : [])]) {
+    const picture = await page.evaluate(compressed, [shot.toString("base64"), ...size, most]);
+    writeFileSync(path.join(place, `${name}.webp`), Buffer.from(picture.split(",")[1], "base64"));
+  }
   await page.close();
   await server.stop();
 }

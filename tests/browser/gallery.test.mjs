@@ -36,6 +36,9 @@ test("a card has the number of spheres and the description, and the present scen
   const text = await page.textContent(control("scene-billiards"));
   assert.match(text, /billiards\s*16 spheres/);
   assert.match(text, /A cue ball breaks a rack/);
+  const advice = await page.textContent(control("what-to-try"));
+  assert.ok(advice.length > 20, "the present scene has something to try");
+  assert.ok((await page.textContent(control("scene-cradle"))).includes(advice));
   assert.match(await page.textContent(control("scene-box-10k")), /10\u202f000 spheres/);
   const marked = await page.evaluate(() =>
     [...document.querySelectorAll(".gallery [aria-current]")].map((card) => card.dataset.testid),

@@ -239,6 +239,7 @@ std::vector<Trial> mixtureTrials() {
         if (model != scene::Model::Accurate) {
             add("crowd", model, 0.05, crowd);
             add("sleepers", model, 0.7, sleepers);
+            add("movers", model, 0.3, physics::layerUnderRain);
             trials.push_back({"moves_" + std::string(scene::nameOf(model)), [=] { return resultsOfMoves(model); }});
         }
         add("open", model, seconds, openMixture);
@@ -253,7 +254,7 @@ std::vector<Trial> coveringTrials() {
     std::erase_if(trials, [](const Trial& trial) {
         return std::ranges::none_of(
             std::initializer_list<const char*>{"commands_fast", "commands_balanced", "commands_accurate",
-                                               "moves_balanced", "open_balanced", "crowd_balanced",
+                                               "moves_balanced", "movers_balanced", "open_balanced", "crowd_balanced",
                                                "periodic_sizes_balanced", "among_moving_obstacles_balanced",
                                                "in_fields_accurate", "in_media_balanced", "encoder"},
             [&](const char* name) { return trial.name == name; });

@@ -101,6 +101,16 @@ TEST_P(Bits, OfAMixtureAreTheSameOnAllDevices) {
     expectTheSameBits(mixture(GetParam()), seconds(GetParam()));
 }
 
+TEST(BitsOfMovers, AreTheSameOnAllDevices) {
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
+        const scene::Scene scene = layerUnderRain(model);
+        expectTheSameBits(scene, 0.4);
+        auto simulation = simulate(scene);
+        run(*simulation, 0.4);
+        EXPECT_GT(simulation->pipeline().read<std::uint32_t>(sim::Array::Counters)[COUNTER_MOVERS], 0U);
+    }
+}
+
 TEST_P(Bits, OfAMixtureInFieldsAreTheSameOnAllDevices) {
     expectTheSameBits(mixtureInFields(GetParam()), seconds(GetParam()));
 }

@@ -68,7 +68,7 @@ TEST_P(Ratio, ContactListsMatchBruteForce) {
     for (const double side : {3.0, 12.0}) {
         const scene::Scene scene = cluster(side, GetParam(), 0);
         const auto simulation = simulate(scene);
-        EXPECT_EQ(simulation->plan().features.has(sim::Feature::Levels), GetParam() > 2);
+        EXPECT_EQ(simulation->plan().grid.sizes() > 1, GetParam() > 2);
         run(*simulation, 2 * scene.step);  // the first step may allocate memory
         ASSERT_EQ(simulation->counters().unlisted, 0U);
         ASSERT_EQ(simulation->counters().sampled, 0U);

@@ -146,4 +146,19 @@ scene::Scene mixtureAmongMovingObstacles(scene::Model model) {
     return scene;
 }
 
+scene::Scene layerUnderRain(scene::Model model) {
+    scene::Scene scene = sleepyBox(5);
+    scene.quality.model = model;
+    scene.sleep.time = 0.05;
+    measure::setFriction(scene, 0.4);
+    scene::Random random(3);
+    const auto aside = [&] { return random.uniform(-0.1, 0.1); };
+    for (int k = 0; k < 46 * 46; ++k)
+        measure::addSphere(scene, {0.105 * (k % 46) - 2.4, 0.105 * (k / 46) - 2.4, -2.45}, 0.05F);
+    for (int k = 0; k < 40; ++k)
+        measure::addSphere(scene, {0.5 * (k % 8) - 2 + aside(), 0.5 * (k / 8) - 1 + aside(), -1.5 + 0.02 * k}, 0.05F,
+                           {0.5, 0.3, -3});
+    return scene;
+}
+
 }  // namespace spherule::physics

@@ -30,4 +30,8 @@ scene::Scene mixtureAmongObstacles(scene::Model model);
 // has them, also below a lid that falls, and around a flap.
 scene::Scene mixtureAmongMovingObstacles(scene::Model model);
 
+// A layer of 2,116 spheres that falls asleep, while 40 others fall on it from 0.2 s on: these have lists of their own
+// (shaders/shared/movers.h).
+scene::Scene layerUnderRain(scene::Model model);
+
 }  // namespace spherule::physics

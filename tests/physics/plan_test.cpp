@@ -87,6 +87,7 @@ TEST(Plan, WithAllFeaturesInAllModelsHasEveryArray) {
             scene.bounds.periodic[0] = periodic;
             for (const sim::ArraySpec& spec : planOf(scene).arrays) arrays.insert(spec.array);
         }
+    for (const sim::ArraySpec& spec : planOf(named("box-4k")).arrays) arrays.insert(spec.array);  // with movers
     for (std::size_t k = 0; k < sim::arrayCount; ++k)
         EXPECT_TRUE(arrays.contains(static_cast<Array>(k))) << nameOf(static_cast<Array>(k));
 }

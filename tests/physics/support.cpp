@@ -214,7 +214,8 @@ std::vector<SlotPair> pairsInOrder(sim::Simulation& simulation) {
         const std::uint32_t first = words[bundle * BUNDLE_WORDS];
         const std::uint32_t listed = words[bundle * BUNDLE_WORDS + 1];
         for (std::uint32_t k = first; listed != UNLISTED && k < first + listed; ++k)
-            found.emplace_back(pairs[k].x, SECOND_OF(pairs[k]));
+            if (SECOND_OF(pairs[k]) != simulation.plan().room)  // a pair that has ended: see movers.h
+                found.emplace_back(pairs[k].x, SECOND_OF(pairs[k]));
     }
     return found;
 }

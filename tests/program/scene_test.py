@@ -80,7 +80,7 @@ class Check(FolderTestCase):
                          [":4:1: is not JSON: unexpected string literal; expected '}'"])
 
     def test_scenes_of_the_program_have_no_mistakes(self):
-        files = sorted(str(path) for path in (ROOT / "server/scenes").glob("*.json") if path.stem != "stress-1m")
+        files = sorted(str(path) for path in (ROOT / "server/scenes").glob("*.json") if not path.stem.endswith("-1m"))
         done = call("scene", "check", *files)
         self.assertEqual((done.returncode, done.stdout), (0, "".join(f"{file}: no mistakes\n" for file in files)))
 

@@ -27,6 +27,8 @@ test("the page says who has done what", () => {
   assert.equal(what({ case: "resume", value: {} }, { playing: true }), "resumed the playback");
   assert.equal(what({ case: "reset", value: {} }), "reset the scene");
   assert.equal(what({ case: "load", value: { source: { case: "name", value: "pour" } } }), "loaded pour");
+  assert.equal(what({ case: "addField", value: {} }), "changed the scene");
+  assert.equal(what({ case: "removeGroup", value: {} }, { spheres: 7n }), "removed a group with 7 spheres");
   assert.equal(what({ case: "spawn", value: {} }, { spheres: 1200n }), "added 1\u202f200 spheres");
   assert.equal(what({ case: "remove", value: {} }, { spheres: 1n }), "removed 1 sphere");
 });

@@ -22,11 +22,12 @@ const allowed: Record<string, string[]> = {
   camera: ["model"],
   charts: ["format", "gen", "model", "ui"],
   gallery: ["connection", "format", "model", "ui"],
+  scene_parts: ["connection", "format", "gen", "model", "ui"],
   statistics: ["format", "gen", "ui"],
   renderer: ["camera", "colour", "columns", "gen", "model"],
   ui: [
     ...["camera", "clock", "colour", "connection", "format", "gen", "model", "observed", "renderer"],
-    ...["charts", "gallery", "statistics", "tools"],
+    ...["charts", "gallery", "scene_parts", "statistics", "tools"],
   ],
   tools: ["camera", "connection", "format", "model", "ui"],
   editor: ["format", "gen", "ui"],

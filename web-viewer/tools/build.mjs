@@ -72,7 +72,7 @@ const { outputFiles, metafile } = await esbuild.build({
   plugins: [shortShaders, plainDescriptors],
 });
 // Parts of the page that it loads when it needs them: see src/ui/parts.ts.
-const names = ["charts", "editor", "gallery", "statistics", "tools"];
+const names = ["charts", "editor", "gallery", "scene_parts", "statistics", "tools"];
 const parts = Object.fromEntries(names.map((name) => [name, `src/${name}/${name}.ts`]));
 const lazy = await esbuild.build({
   ...common,

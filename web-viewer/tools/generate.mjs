@@ -10,10 +10,13 @@ import { options, root } from "./options.mjs";
 
 const RULES = "spherule/v1/rules.proto";
 
-/** Removes the rules of the fields of scenes. The page does not read them, and they would be part of the first load. */
+/**
+ * Removes the rules of fields: of the scene, and of commands. The page does not read them, and they would be part of
+ * the first load.
+ */
 function withoutRules(binary) {
   const set = fromBinary(FileDescriptorSetSchema, binary);
-  for (const file of set.file.filter((one) => one.dependency.includes(RULES))) {
+  for (const file of set.file) {
     file.dependency = file.dependency.filter((name) => name !== RULES);
     for (const message of file.messageType)
       for (const ruled of [...message.field, ...message.oneofDecl]) ruled.options = undefined;

@@ -176,6 +176,11 @@ SPHERULE_INLINE real4 membersOf(const T* array, const uints& at, vec4 T::*member
 }
 
 // A component of vectors.
+SPHERULE_INLINE real membersOf(const vec4* array, slots at, float vec4::*member) {
+    Reals row;
+    for (unsigned lane = 0; lane < lanes; ++lane) row[lane] = at.rowOf(array, lane).*member;
+    return real(row);
+}
 SPHERULE_INLINE real membersOf(const vec4* array, uintRow at, float vec4::*member) {
     Reals row;
     for (unsigned lane = 0; lane < lanes; ++lane) row[lane] = array[at.first + (lane < at.live ? lane : 0)].*member;

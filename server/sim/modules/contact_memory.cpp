@@ -16,7 +16,9 @@ const Module moduleContactMemory{
             using enum Array;
             plan.arrays({ContactX, ContactY, ContactZ, CarriedCount, Carried});
             if (plan.has(Feature::Balanced) && plan.has(Feature::Friction)) plan.arrays({TorqueX, TorqueY, TorqueZ});
-            plan.onRebuild(Stage::Carry, Pass::ContactMemory, "contacts_carry.comp", LAUNCH_BUNDLES);
+            if (plan.has(Feature::Movers))
+                plan.onRebuild(Stage::Carry, Pass::ContactMemory, "contacts_carry.comp", LAUNCH_FORGET, {}, 0);
+            plan.onRebuild(Stage::Carry, Pass::ContactMemory, "contacts_carry.comp", LAUNCH_BUNDLES, {}, 1);
             plan.onRebuild(Stage::Restore, Pass::ContactMemory, "contacts_restore.comp", LAUNCH_BUNDLES);
             if (!plan.has(Feature::Balanced)) return;
             // If the new lists lack a contact, its impulse is no longer among the impulses that its spheres hold.

@@ -35,6 +35,7 @@ void declareLists(PlanBuilder& plan) {
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_count.comp", LAUNCH_SPHERES, cellOfSphere);
     plan.prefixSumOnRebuild(Stage::SortCells, Pass::Grid, CellStart, {LAUNCH_BLOCKS, LAUNCH_SUPERBLOCKS},
                             plan.plan().grid.all() + 1);
+    if (plan.has(Feature::Movers)) plan.onRebuild(Stage::SortCells, Pass::Grid, "mover_cells.comp", LAUNCH_MOVER_CELLS);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_scatter.comp", LAUNCH_SPHERES, cellOfSphere);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_order.comp", LAUNCH_CELL_RUNS, {{"otherOrder", RankInCell}});
     plan.onRebuild(Stage::Reference, Pass::Grid, "list_reference.comp", LAUNCH_SPHERES);
@@ -61,6 +62,12 @@ void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
     p.margin = grid.margin;
     p.rebuildMove = static_cast<float>(rebuildShare) * grid.margin;
     p.bundles = grid.bundles();
+    p.mostMovers = from.plan.mostMovers;
+    p.farSlot = from.plan.room;
+    if (grid.hasMovers) {
+        p.moverLevel = static_cast<std::uint32_t>(grid.levels.size() - 1);
+        p.firstMoverCell = grid.levels.back().first;
+    }
     p.pairCapacity = from.plan.pairCapacity;
 }
 
@@ -94,6 +101,19 @@ const Module moduleLevels{
     .feature = Feature::Levels,
     .required = [](const scene::Scene& /*scene*/, const Features& /*others*/) { return false; },
     .cost = {.reason = "the case `sizes` measures it"},
+};
+
+// Spheres that move among sleeping ones have lists of their own (shaders/shared/movers.h). planFor() sets the feature,
+// because it makes the grid.
+const Module moduleMovers{
+    .feature = Feature::Movers,
+    .required = [](const scene::Scene& /*scene*/, const Features& /*others*/) { return false; },
+    .declare =
+        [](PlanBuilder& plan) {
+            plan.arrays({Array::IsMover, Array::MoverSlots, Array::LeftBlock});
+            plan.onRebuild(Stage::Movers, Pass::Grid, "movers_collect.comp", LAUNCH_COLLECT);
+        },
+    .cost = {.reason = "part of sleep in scenes of many spheres"},
 };
 
 // A face of the bounds is open: spheres may leave.

@@ -36,25 +36,28 @@ void PlanBuilder::overStatisticBlocks(Stage stage, Pass pass, std::string_view k
 void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel) {
     if (!has(Feature::Contacts)) return;
     for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level)
-        for (std::uint32_t colour = 0; colour < 8; ++colour)
+        for (std::uint32_t colour = 0; colour < 8; ++colour) {
             staged_.push_back({stage,
                                {.pass = pass,
                                 .kernel = kernel,
                                 .count = plan_.grid.levels[level].bundlesOfColour(),
                                 .phase = 8 * level + colour}});
+            if (level == plan_.grid.sizes()) staged_.back().launch.launchRow = LAUNCH_MOVERS;
+        }
 }
 
-void PlanBuilder::overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row) {
+void PlanBuilder::overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::uint32_t bits) {
     const std::size_t first = staged_.size();
     overPairs(stage, pass, kernel);
-    for (std::size_t k = first; k < staged_.size(); ++k) staged_[k].launch.launchRow = row;
+    for (std::size_t k = first; k < staged_.size(); ++k) {
+        staged_[k].launch.launchRow = row;
+        staged_[k].launch.phase |= bits;
+    }
 }
 
 void PlanBuilder::overLevelsOnRebuild(Stage stage, Pass pass, std::string_view kernel) {
-    for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level) {
-        onRebuild(stage, pass, kernel, LAUNCH_LEVEL);
-        staged_.back().launch.phase = level;
-    }
+    for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level)
+        onRebuild(stage, pass, kernel, level == plan_.grid.sizes() ? LAUNCH_MOVER_LEVEL : LAUNCH_LEVEL, {}, level);
 }
 
 void PlanBuilder::once(Stage stage, Pass pass, std::string_view kernel) {
@@ -67,15 +70,15 @@ void PlanBuilder::decidesRebuild(Stage stage, Pass pass, std::string_view kernel
 }
 
 void PlanBuilder::onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row,
-                            std::vector<Alias> aliases) {
-    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .launchRow = row, .aliases = std::move(aliases)}});
+                            std::vector<Alias> aliases, std::uint32_t phase) {
+    staged_.push_back(
+        {stage, {.pass = pass, .kernel = kernel, .launchRow = row, .phase = phase, .aliases = std::move(aliases)}});
 }
 
 void PlanBuilder::prefixSumOnRebuild(Stage stage, Pass pass, Array values, std::array<std::uint32_t, 2> rows,
                                      std::uint32_t count) {
     const auto scan = [&](std::string_view kernel, std::vector<Alias> of, std::uint32_t row, std::uint32_t phase) {
-        onRebuild(stage, pass, kernel, row, std::move(of));
-        staged_.back().launch.phase = phase;
+        onRebuild(stage, pass, kernel, row, std::move(of), phase);
     };
     const std::vector<Alias> low{{"values", values}, {"sums", Array::BlockSums}};
     const std::vector<Alias> high{{"values", Array::BlockSums}, {"sums", Array::SuperSums}};
@@ -130,9 +133,9 @@ void PlanBuilder::finish() {
             if (!typeOf(spec.array).sorted) continue;
             const bool words = typeOf(spec.array).type == "uint";
             const std::vector<Alias> column{{"column", spec.array}};
-            onRebuild(Stage::SortColumns, Pass::Grid, words ? "sort_words.comp" : "sort_vectors.comp", LAUNCH_SPHERES,
+            onRebuild(Stage::SortColumns, Pass::Grid, words ? "sort_words.comp" : "sort_vectors.comp", LAUNCH_COLUMNS,
                       column);
-            onRebuild(Stage::SortColumns, Pass::Grid, words ? "copy_words.comp" : "copy_vectors.comp", LAUNCH_SPHERES,
+            onRebuild(Stage::SortColumns, Pass::Grid, words ? "copy_words.comp" : "copy_vectors.comp", LAUNCH_COLUMNS,
                       column);
         }
     std::ranges::stable_sort(staged_, {}, &Staged::stage);

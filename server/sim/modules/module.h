@@ -14,10 +14,11 @@
 namespace spherule::sim {
 
 // The stages of a substep, in their order. Within a stage, launches run in the order of the modules that declare them
-// (the order of shaders/features.def). The stages from Leavers to Restore run only while the lists are rebuilt.
+// (the order of shaders/features.def). The stages from Movers to Restore run only while the lists are rebuilt.
 enum class Stage : std::uint8_t {
     Integrate,    // of `fast` and `accurate`
     Rebuild,      // decides whether the lists are rebuilt in this substep
+    Movers,       // finds the spheres that get lists of their own
     Leavers,      // wakes sleepers that a neighbour has left; the old lists are still valid
     Carry,        // saves by id what contacts remember
     SortCells,    // the order of the spheres by cell
@@ -58,17 +59,18 @@ class PlanBuilder {
     // Runs for each STATISTIC_BLOCK spheres.
     void overStatisticBlocks(Stage stage, Pass pass, std::string_view kernel);
     // Runs over all listed pairs: one colour of bundles after the other, level after level, a work group for each
-    // bundle.
+    // bundle. The level of movers is left out while there are none.
     void overPairs(Stage stage, Pass pass, std::string_view kernel);
-    // The same while row `row` of the launch table is not empty.
-    void overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row);
+    // The same while row `row` of the launch table is not empty. `bits` are added to the phase.
+    void overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::uint32_t bits = 0);
     // Runs while the lists are rebuilt, a work group for each bundle of a level, level after level.
     void overLevelsOnRebuild(Stage stage, Pass pass, std::string_view kernel);
     void once(Stage stage, Pass pass, std::string_view kernel);
     // Runs once. Its phase is 1 if the launches of a rebuild follow, else 0.
     void decidesRebuild(Stage stage, Pass pass, std::string_view kernel);
     // Runs while the lists are rebuilt. Row `row` of the launch table holds `count` of the launch.
-    void onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::vector<Alias> aliases = {});
+    void onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::vector<Alias> aliases = {},
+                   std::uint32_t phase = 0);
     // Turns the values of an array into exclusive prefix sums, in blocks and in blocks of blocks. `rows` of the launch
     // table: the row for blocks, then the row for blocks of blocks.
     void prefixSumOnRebuild(Stage stage, Pass pass, Array values, std::array<std::uint32_t, 2> rows,

@@ -7,7 +7,7 @@ namespace {
 void declareWrap(PlanBuilder& plan) {
     plan.arrays({Array::Images});
     if (plan.has(Feature::Contacts))
-        plan.onRebuild(Stage::Carry, Pass::Grid, "wrap_positions.comp", LAUNCH_SPHERES);
+        plan.onRebuild(Stage::Carry, Pass::Grid, "wrap_positions.comp", LAUNCH_COLUMNS);
     else
         plan.overSpheres(Stage::Integrate, Pass::Integrate, "wrap_positions.comp");
 }

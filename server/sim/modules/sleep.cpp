@@ -11,8 +11,8 @@ namespace {
 
 void declareSleep(PlanBuilder& plan) {
     using enum Array;
-    plan.arrays({RestReference, RestlessBlock, ActiveBlock, VelocityBefore});
-    plan.overPairsIf(Stage::Leavers, Pass::Grid, "wake.comp", LAUNCH_COLOUR);
+    plan.arrays({RestReference, RestlessBlock, ActiveBlock, ActiveGroup, WakerGroup, VelocityBefore});
+    plan.overPairsIf(Stage::Leavers, Pass::Grid, "wake.comp", LAUNCH_COLOUR, LEAVERS);
     plan.overSpheres(Stage::Activity, Pass::Sleep, "mark_active.comp");
     plan.overBundles(Stage::Activity, Pass::Sleep, "dilate_active.comp");
     plan.overPairs(Stage::Activity, Pass::Sleep, "wake.comp");

@@ -49,6 +49,21 @@ TEST(CommandParser, ParsesEveryCommand) {
               "impulse: 7 impulse: 8 impulse: 9 }");
     EXPECT_EQ(parsed({"spawn", R"({"list":{"spheres":[{"position":[0,0,1],"radius":0.1}]}})"}),
               "spawn { group { list { spheres { position: 0 position: 0 position: 1 radius: 0.1 } } } }");
+    EXPECT_EQ(parsed({"add_obstacle", R"({"colour":"#ff0000"})"}), "add_obstacle { obstacle { colour: \"#ff0000\" } }");
+    EXPECT_EQ(parsed({"add_field", R"({"drag":{"density":2}})"}), "add_field { field { drag { density: 2 } } }");
+    EXPECT_EQ(parsed({"change_field", "3", R"({"drag":{}})"}), "change_field { number: 3 field { drag { } } }");
+    EXPECT_EQ(parsed({"remove_field", "3"}), "remove_field { number: 3 }");
+    EXPECT_EQ(parsed({"add_emitter", R"({"rate":2})"}), "add_emitter { emitter { rate: 2 } }");
+    EXPECT_EQ(parsed({"change_emitter", "0", R"({"rate":2})"}), "change_emitter { emitter { rate: 2 } }");
+    EXPECT_EQ(parsed({"remove_emitter", "1"}), "remove_emitter { number: 1 }");
+    EXPECT_EQ(parsed({"add_material", R"({"name":"cork"})"}), "add_material { material { name: \"cork\" } }");
+    EXPECT_EQ(parsed({"change_material", "1", R"({"name":"cork"})"}),
+              "change_material { number: 1 material { name: \"cork\" } }");
+    EXPECT_EQ(parsed({"remove_material", "1"}), "remove_material { number: 1 }");
+    EXPECT_EQ(parsed({"set_pair", R"({"a":"cork","b":"ice"})"}), "set_pair { pair { a: \"cork\" b: \"ice\" } }");
+    EXPECT_EQ(parsed({"change_group", "2", R"({"number":7,"material":"cork","metal":0})"}),
+              "change_group { number: 2 material: \"cork\" metal: 0 }");
+    EXPECT_EQ(parsed({"remove_group", "2"}), "remove_group { number: 2 }");
     EXPECT_EQ(parsed({R"({"id":3,"step":{"count":10}})"}), "id: 3 step { count: 10 }");
 }
 
@@ -100,6 +115,11 @@ TEST(CommandParser, ReportsAcceptedForms) {
         {"set", "model", "slow"},
         {"set", "model", "model_unspecified"},
         {"set", "model", "fast", "accurate"},
+        {"add_field"},
+        {"change_field", "{}"},
+        {"change_field", "x", "{}"},
+        {"change_group", "1"},
+        {"remove_field"},
         {"push", "1", "2", "3"},
         {"push", "ray", "1", "2", "3"},
         {"{}"},

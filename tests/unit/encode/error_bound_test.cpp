@@ -39,8 +39,8 @@ double bound(double x, double quantum) {
     return quantum / 2 + 3 * std::ldexp(std::abs(x) + quantum / 2, -24);
 }
 
-// Larger lattices are cut to this number of spheres. `stress-1m` keeps its width, which determines the rounding, but
-// has only some layers.
+// Larger lattices are cut to this number of spheres in all. `stress-1m` keeps its width, which determines the rounding,
+// but has only some layers.
 constexpr std::uint32_t mostSpheres = 100'000;
 
 // Returns a scene with emitters as it is after two seconds, without emitters and sinks: the number of spheres stays.
@@ -64,9 +64,9 @@ scene::Scene sceneOf(const std::string& name) {
     const auto text = scene::embeddedScene(name, "cpu");
     if (!text) throw std::runtime_error("no scene " + name);
     v1::Scene message = valueOf(scene::parseJson(std::string(*text), name));
+    const std::uint32_t most = mostSpheres / static_cast<std::uint32_t>(std::max(1, message.groups_size()));
     for (v1::Group& group : *message.mutable_groups())
-        if (group.has_lattice() && group.lattice().count() > mostSpheres)
-            group.mutable_lattice()->set_count(mostSpheres);
+        if (group.has_lattice() && group.lattice().count() > most) group.mutable_lattice()->set_count(most);
     scene::Scene scene = valueOf(scene::build(message));
     return scene.emitters.empty() ? scene : afterBirths(std::move(scene));
 }

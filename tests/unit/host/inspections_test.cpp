@@ -24,6 +24,7 @@ class NoEffects : public CommandExecutor::Effects {
     Result<void> stopRecording() override { return {}; }
     void worldChanged() override {}
     void publishChanges() override {}
+    void reloaded(const Result<sim::Applied>& /*done*/) override {}
 };
 
 class Inspections : public testing::Test {

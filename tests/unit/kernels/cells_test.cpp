@@ -31,13 +31,17 @@ struct Cells {
     void sort() {
         const Launch how{.parameters = &parameters, .features = allFeatures};
         const Slot slots[] = {{"position", position},  {"cellStart", start}, {"rankInCell", place},
-                              {"cellOfSphere", cells}, {"cellOrder", order}, {"idAndMaterial", id}};
+                              {"cellOfSphere", cells}, {"cellOrder", order}, {"idAndMaterial", id},
+                              {"counters", counters},  {"moverSlots", order}};
         launch("cell_clear", slots, how);
         launch("cell_count", slots, how);
         prefixSum(start);
         launch("cell_scatter", slots, how);
-        const Slot orderSlots[] = {
-            {"cellStart", start}, {"cellOrder", order}, {"otherOrder", place}, {"idAndMaterial", id}};
+        const Slot orderSlots[] = {{"cellStart", start},
+                                   {"cellOrder", order},
+                                   {"otherOrder", place},
+                                   {"idAndMaterial", id},
+                                   {"counters", counters}};
         launch("cell_order", orderSlots, how);
     }
 
@@ -50,6 +54,7 @@ struct Cells {
     layout::Parameters parameters{};
     std::vector<vec4> position;
     std::vector<uint> id, start, place, cells, order;
+    std::vector<uint> counters = std::vector<uint>(COUNTER_WORDS);
 };
 
 // Cells that a single thread sorts, and crowds. Ids have all 24 bits, and a material above them.

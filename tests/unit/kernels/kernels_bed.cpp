@@ -69,7 +69,7 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
     carried_.resize(std::size_t{count} * CARRIED_MOST);
     groupRange.resize(parameters.cells.w / 8);
     bundles.resize(std::size_t{parameters.bundles + 1} * BUNDLE_WORDS);
-    dispatchSizes.assign(LAUNCH_ROWS, uvec4(1, 1, 1, 1));
+    dispatchSizes.assign(std::size_t{2} * LAUNCH_ROWS, uvec4(1, 1, 1, 1));
     dispatchArgs.resize(LAUNCH_ROWS);
 }
 
@@ -98,6 +98,9 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"otherOrder", rankInCell_},
                           {"cellOfSphere", sortScratchWords_},
                           {"cellOrder", cellOrder_},
+                          {"moverSlots", noMovers_},
+                          {"isMover", noMovers_},
+                          {"leftBlock", noMovers_},
                           {"slotOf", slots_},
                           {"busyBatches", busyBatches_},
                           {"sortedX", sortedX_},
@@ -138,7 +141,7 @@ void Bed::setObstacles(uint number, uint shape) {
 void Bed::rebuild() {
     counters[COUNTER_REBUILD] = REBUILD_DUE;
     run("rebuild_decide", 1);
-    run("contacts_carry");
+    run("contacts_carry", 1);
     run("cell_clear");
     run("cell_count");
     prefixSum(cellStart);

@@ -99,6 +99,7 @@ struct Bed {
     uint present() const;  // first element of the memory of the present lists
 
     std::vector<uint> rankInCell_, cellOrder_, slots_, busyBatches_, carriedCount_, sortScratchWords_;
+    std::vector<uint> noMovers_ = std::vector<uint>(1);
     std::vector<float> sortedX_, sortedY_, sortedZ_, sortedRadius_;
     std::vector<uvec2> carried_;
     std::vector<vec4> sortScratch_;

@@ -60,6 +60,7 @@ class Around {
                 {"listReference", spin},
                 {"idAndMaterial", ids},
                 {"counters", counters},
+                {"moverSlots", counters},
                 {"surfaceSums", one},
                 {"obstacles", obstacles},
                 {"obstacleLists", obstacleLists},

@@ -91,8 +91,8 @@ EVERYTHING = {
 }
 
 
-def everything(model, shapes=None, periodic=False):
-    """`shapes`: those that obstacles may have; all by default."""
+def everything(model, shapes=None, periodic=False, movers=False):
+    """`shapes`: those that obstacles may have; all by default. `movers`: spheres of similar size only."""
     scene = copy.deepcopy(EVERYTHING)
     if model == "fast":  # has no driven bodies
         scene["obstacles"] = [one for one in scene["obstacles"] if "drive" not in one.get("motion", {})]
@@ -101,6 +101,8 @@ def everything(model, shapes=None, periodic=False):
     if periodic:
         scene["bounds"] |= {"periodic": ["X", "Y"]}
         scene["fields"] = [{"drag": {"velocity": [1, 0, 0]}}]  # the others have no images
+    if movers:
+        scene["groups"] = [one for one in scene["groups"] if one["radius"]["constant"] < 0.1]
     return scene
 
 
@@ -138,9 +140,11 @@ def plan(title, scene, model):
 
 def feature_sets(form):
     if form == "largest":
-        return [plan(f"meshes, {model}", everything(model, {"plane", "box", "heightField"}), model) for model in MODELS]
+        return [plan(f"meshes, {model}", everything(model, {"plane", "box", "heightField"}, movers=movers), model)
+                for movers in (False, True) for model in MODELS]
     sets = [plan(f"everything, {model}", everything(model), model) for model in MODELS]
     sets += [plan(f"periodic, {model}", everything(model, {"plane"}, periodic=True), model) for model in MODELS]
+    sets += [plan(f"movers, {model}", everything(model, movers=True), model) for model in MODELS]
     for path in sorted(SCENES.glob("*.json")):
         own = plan(path.stem, path, None)
         sets += [own] + [one for model in MODELS if (one := plan(f"{path.stem}, {model}", path, model))]
@@ -277,6 +281,7 @@ class Registers(unittest.TestCase):
     def test_the_scenes_with_everything_have_every_feature(self):
         sets = [plan(model, everything(model), model) for model in MODELS]
         sets.append(plan("periodic", everything("fast", {"plane"}, periodic=True), "fast"))
+        sets.append(plan("movers", everything("balanced", movers=True), "balanced"))
         missing = [flag for flag in flags().values() if not any(one.features[flag] for one in sets)]
         self.assertEqual(missing, [], "add them to EVERYTHING")
 

@@ -245,6 +245,7 @@ struct Spheres {
                 {"listReference", listReference},
                 {"idAndMaterial", ids},
                 {"counters", counters},
+                {"moverSlots", ids},
                 {"surfaceSums", surfaceSums},
                 {"obstacles", obstacles},
                 {"obstacleLists", obstacleLists},

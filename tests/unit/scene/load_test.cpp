@@ -29,18 +29,19 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
         ASSERT_TRUE(scene) << scene.error().text();
         EXPECT_EQ(scene->name, name == "box" ? "box-4k" : name == "rapids" ? "rapids-3k" : name);
         EXPECT_FALSE(scene->description.empty()) << name;
+        EXPECT_FALSE(scene->whatToTry.empty()) << name;
         EXPECT_TRUE(mayHaveAny(*scene)) << name;
         for (const Group& group : scene->groups) EXPECT_FALSE(group.look.colour.empty()) << name;
     }
 }
 
 TEST(SceneLoad, NamesAreSortedAndIncludeTheExamples) {
-    const std::vector<std::string> expected{"avalanche",       "ball-mill", "billiards",  "bounce",     "box",
-                                            "box-10k",         "box-4k",    "box-50k",    "conveyor",   "cradle",
-                                            "cradle-touching", "drum",      "fountain",   "galton",     "hopper",
-                                            "marble-run",      "mixer",     "piston",     "pour",       "press",
-                                            "rapids",          "rapids-3k", "rapids-50k", "rapids-6k",  "screw",
-                                            "sieve",           "silo",      "stress-1m",  "two-spheres"};
+    const std::vector<std::string> expected{
+        "avalanche",  "ball-mill",  "billiards", "bounce",     "bowl-1m",         "box",   "box-10k",  "box-4k",
+        "box-50k",    "brazil-nut", "conveyor",  "cradle",     "cradle-touching", "drum",  "fountain", "galton",
+        "gas",        "hopper",     "hourglass", "landslide",  "marble-run",      "mixer", "piston",   "pour",
+        "press",      "rapids",     "rapids-3k", "rapids-50k", "rapids-6k",       "screw", "sieve",    "silo",
+        "snow-globe", "sorter",     "stress-1m", "tornado",    "two-spheres"};
     EXPECT_EQ(names(), expected);
 }
 
@@ -98,11 +99,11 @@ TEST(SceneLoad, CradlesHaveTheNamedProperties) {
 
 TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
     EXPECT_EQ(load("bux", "gpu").error().text(),
-              "\"bux\": is not the name of a scene; there are avalanche, ball-mill, billiards, bounce, box, box-10k, "
-              "box-4k, box-50k, conveyor, cradle, cradle-touching, drum, fountain, galton, hopper, marble-run, mixer, "
-              "piston, pour, press, rapids, rapids-3k, rapids-50k, rapids-6k, screw, sieve, silo, stress-1m, "
-              "two-spheres. A file is "
-              "named with its ending, .json");
+              "\"bux\": is not the name of a scene; there are avalanche, ball-mill, billiards, bounce, "
+              "bowl-1m, box, box-10k, box-4k, box-50k, brazil-nut, conveyor, cradle, cradle-touching, drum, "
+              "fountain, galton, gas, hopper, hourglass, landslide, marble-run, mixer, piston, pour, press, "
+              "rapids, rapids-3k, rapids-50k, rapids-6k, screw, sieve, silo, snow-globe, sorter, stress-1m, "
+              "tornado, two-spheres. A file is named with its ending, .json");
 }
 
 TEST(SceneLoad, MissingFilesAreRefused) {

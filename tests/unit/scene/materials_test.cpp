@@ -72,7 +72,7 @@ TEST(SceneMaterials, OnlyTheFirstMayHaveNoName) {
 
 TEST(SceneMaterials, NamesAreUnique) {
     EXPECT_EQ(refusalOf(R"("materials": [{"name": "felt"}, {"name": "steel"}, {"name": "felt"}])"),
-              R"(materials[2].name: is "felt", the name of an earlier material)");
+              R"(materials[2].name: is "felt", the name of another material)");
     EXPECT_EQ(refusalOf(R"("materials": [{"name": "felt"}, {"name": "Felt"}])"), "accepted");
 }
 

@@ -86,6 +86,11 @@ export class Commands {
     return this.send(name, { case: "set", value: settings }, quiet);
   }
 
+  /** Changes a part of the scene. The place of the part shows how it ends. */
+  change(name: string, kind: CommandKind): Promise<Outcome> {
+    return this.send(name, kind, true);
+  }
+
   /** Pulls a sphere to a point (m). */
   pull(sphere: number, point: readonly number[]): Promise<Outcome> {
     return this.send("Pull", { case: "pull", value: { sphere: BigInt(sphere), point: [...point] } }, true);

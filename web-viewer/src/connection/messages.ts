@@ -13,6 +13,7 @@ import type {
   Timeline,
   Welcome,
 } from "../gen/spherule/v1/control_pb";
+import type { SceneParts } from "../gen/spherule/v1/scene_parts_pb";
 import type { Diagnostics, Dial } from "../gen/spherule/v1/diagnostics_pb";
 import type { Population, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Pose, Quantity, Status, Tier } from "../gen/spherule/v1/frame_pb";
@@ -125,6 +126,7 @@ export type FromWorker =
   | { kind: "replay"; replay: ReplayState | undefined } // undefined: the present is shown
   | { kind: "population"; population: Population }
   | { kind: "settings"; settings: Settings }
+  | { kind: "parts"; parts: SceneParts }
   | { kind: "stream"; stream: Stream }
   | { kind: "order"; order: DrawOrder }
   | { kind: "frame"; frame: Received }

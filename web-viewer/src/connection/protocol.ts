@@ -29,6 +29,8 @@ export function forPage(kind: Kind): FromWorker | undefined {
       return { kind: "population", population: kind.value };
     case "settings":
       return { kind: "settings", settings: kind.value };
+    case "parts":
+      return { kind: "parts", parts: kind.value };
     case "result":
       return { kind: "result", result: kind.value };
     case "event":

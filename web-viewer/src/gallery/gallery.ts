@@ -8,6 +8,7 @@ import style from "./gallery.css";
 interface Card {
   name: string;
   description: string;
+  whatToTry: string;
   spheres: number;
   embedded: boolean; // part of the program: the page has its picture, and the server loads it by its name
 }
@@ -77,15 +78,15 @@ export class Gallery {
   /** The scenes of the program; before them the present scene, if it is another one. */
   private cards(): Card[] {
     const { welcome, facts } = this.session;
-    const cards = (welcome?.gallery ?? []).map(({ name, description, spheres }): Card => {
-      return { name, description, spheres, embedded: true };
+    const cards = (welcome?.gallery ?? []).map(({ name, description, whatToTry, spheres }): Card => {
+      return { name, description, whatToTry, spheres, embedded: true };
     });
     if (!facts || cards.some(({ name }) => name === facts.name)) return cards;
-    const { name, description, population } = facts;
-    return [{ name, description, spheres: population.count, embedded: false }, ...cards];
+    const { name, description, whatToTry, population } = facts;
+    return [{ name, description, whatToTry, spheres: population.count, embedded: false }, ...cards];
   }
 
-  private buttonOf({ name, description, spheres, embedded }: Card, blockedReason: string): HTMLElement {
+  private buttonOf({ name, description, whatToTry, spheres, embedded }: Card, blockedReason: string): HTMLElement {
     const reason = embedded ? blockedReason : ownScene;
     const current = name === this.session.facts?.name;
     const image = { src: `scenes/${name}.webp`, alt: "", width: "240", height: "150" };
@@ -105,6 +106,7 @@ export class Gallery {
       h("span", { class: "name" }, h("b", { dir: "auto" }, name), h("small", {}, number)),
       h("span", { class: "about", dir: "auto" }, description),
     );
+    if (whatToTry) button.append(h("span", { class: "about try", dir: "auto" }, whatToTry));
     if (current) button.setAttribute("aria-current", "true");
     return button;
   }

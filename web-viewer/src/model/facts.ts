@@ -32,6 +32,7 @@ export interface Facts {
   epoch: number;
   name: string;
   description: string;
+  whatToTry: string; // may be empty
   min: Vec3;
   max: Vec3;
   open: Set<Face>;
@@ -57,6 +58,7 @@ export function factsOf(scene: SceneFacts): Facts {
     epoch: scene.epoch,
     name: scene.name,
     description: scene.description,
+    whatToTry: scene.whatToTry,
     min,
     max,
     open: new Set(scene.open),

@@ -14,6 +14,7 @@ import type {
   Timeline,
   Welcome,
 } from "../gen/spherule/v1/control_pb";
+import type { SceneParts } from "../gen/spherule/v1/scene_parts_pb";
 import type { Diagnostics, Dial } from "../gen/spherule/v1/diagnostics_pb";
 import type { Population as PopulationChange, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
@@ -79,6 +80,7 @@ export class Session {
   @observed accessor facts: Facts | undefined;
   @observed accessor revision = 0; // grows with each change of the population of these facts
   @observed accessor settings: Settings | undefined;
+  @observed accessor parts: SceneParts | undefined; // fields, emitters and materials; undefined: unknown
   @observed accessor status: Status | undefined;
   @observed accessor dial: Dial | undefined;
   @observed accessor diagnostics: Diagnostics | undefined;
@@ -144,6 +146,9 @@ export class Session {
       case "settings":
         this.settings = message.settings;
         if (!message.settings.paused) this.divergence = undefined;
+        break;
+      case "parts":
+        this.parts = message.parts;
         break;
       case "order":
         this.events.orderChanged(message.order);

@@ -38,8 +38,11 @@ function deedOf(kind: Command["kind"], spheres: bigint, playing: boolean): strin
       return `removed ${some}`;
     case "set":
       return `set ${settingsOf(kind.value).join(", ")}`;
+    case "removeGroup":
+      return `removed a group with ${some}`;
     default:
-      return undefined;
+      // Such as "addField" and "setPair".
+      return /^(add|change|remove|set)[A-Z]/.test(kind.case ?? "") ? "changed the scene" : undefined;
   }
 }
 

@@ -7,6 +7,8 @@ const deeds: Record<string, string> = {
   reset: "Resetting the scene",
   spawn: "Adding spheres",
   set: "Changing the settings",
+  add_field: "Adding a field",
+  add_emitter: "Adding an emitter",
   step: "Stepping",
   picture: "Drawing the picture",
 };

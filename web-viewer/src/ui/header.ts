@@ -44,9 +44,12 @@ export class Header {
     const scene = live(h("h1", { dir: "auto", "data-testid": "scene-name" }, liveText(name)), { title: name });
     const attributes = { class: "description", dir: "auto", "data-testid": "scene-description" };
     const description = live(h("p", attributes, liveText(about)), { title: about });
-    live(this.about, { hidden: () => about() === "" });
+    const advice = (): string => session.facts?.whatToTry ?? "";
+    const tried = { class: "description try", dir: "auto", "data-testid": "what-to-try" };
+    const tryIt = live(h("p", tried, liveText(advice)), { title: advice, hidden: () => advice() === "" });
+    live(this.about, { hidden: () => about() + advice() === "" });
     const title = h("div", { class: "title" }, scene, this.about);
-    this.element = h("header", {}, brand, title, description);
+    this.element = h("header", {}, brand, title, description, tryIt);
     this.describe(false);
   }
 

@@ -319,7 +319,7 @@ export class Page {
   eventReceived(event: Event): void {
     const announcement = announcementOf(event, this.session.playing);
     if (announcement) this.toasts.show(announcement.who, announcement.what, "plain", { topic: announcement.who });
-    else this.toasts.show("Server", event.text, "plain");
+    else this.toasts.show("Server", event.text, "plain", { stay: longStay });
   }
 
   private showNotices(graphics: Graphics, now: number): void {

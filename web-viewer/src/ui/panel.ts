@@ -35,6 +35,7 @@ import {
   impulseRule,
 } from "./presets";
 import { refusalText } from "./refusals";
+import { sceneFolder } from "./scene_folder";
 import { fillStatistics } from "./statistics_folders";
 import type { Steering } from "./steering";
 import { StreamFolder } from "./stream_folder";
@@ -94,6 +95,7 @@ export class Panel {
       this.gravityFolder(),
       this.qualityFolder(),
       this.worldFolder(),
+      sceneFolder(session, commands, () => steering.blockedReason, actions.loadPart),
       this.lookFolder(),
       ...[cut.folder, this.stream.folder, now, rest, this.charts.folder],
       this.accessFolder(),

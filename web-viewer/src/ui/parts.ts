@@ -1,7 +1,7 @@
 import type { Toasts } from "./toasts";
 
 /** The bundles that the page loads when it needs them; tools/build.mjs makes them. */
-export type PartName = "charts" | "editor" | "gallery" | "statistics" | "tools";
+export type PartName = "charts" | "editor" | "gallery" | "scene_parts" | "statistics" | "tools";
 
 export type LoadPart = <T>(name: PartName) => Promise<T | undefined>;
 
