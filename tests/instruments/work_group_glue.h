@@ -5,6 +5,7 @@
 #pragma once
 
 #include <new>
+#include <stdexcept>
 
 #include "work_groups.h"
 
@@ -41,12 +42,13 @@ uint countOf(const Binding& binding) {
         count = kernel.kernelCount();
     else
         count = kernel.bundlesOfPhase();
-    instruments::beginLaunch(&countOf<Kernel>, binding, count);
+    instruments::beginLaunch(&countOf<Kernel>, binding);
     return count;
 }
 
 template <class Kernel>
 void run(const Binding& binding, uint begin, uint end) {
+    if (begin != 0) throw std::logic_error("a device of one thread runs a launch at once");
     constexpr bool ofGroups = requires(Kernel kernel) {
         kernel.main();
     };
@@ -61,14 +63,14 @@ void run(const Binding& binding, uint begin, uint end) {
             kernel.gl_WorkGroupID.x = number;
             kernel.main();
         };
-        instruments::runGroups(begin, end, body);
+        instruments::runGroups(end, body);
     } else {
         body.call = [](void* object, uint thread, uint number) {
             Kernel& kernel = *static_cast<Kernel*>(object);
             kernel.thread = thread;
             kernel.kernelBody(number);
         };
-        instruments::runInvocations(begin, end, body);
+        instruments::runInvocations(end, body);
     }
 }
 

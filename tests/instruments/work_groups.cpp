@@ -71,7 +71,6 @@ struct State {
     std::span<const Entry> table = productionKernels();
     std::uint64_t seed = 0;
     Place place;
-    Permutation order{1, 0};  // of the launch
     std::uint32_t (*kernel)(const compute::cpu::Binding&) = nullptr;
     std::vector<void*> slots;
     std::vector<std::uint32_t> numbers;         // by user
@@ -235,15 +234,13 @@ AddressRange sharedMemory() {
             reinterpret_cast<std::uintptr_t>(__stop_work_group_memory)};
 }
 
-void beginLaunch(std::uint32_t (*kernel)(const compute::cpu::Binding&), const compute::cpu::Binding& binding,
-                 std::uint32_t count) {
+void beginLaunch(std::uint32_t (*kernel)(const compute::cpu::Binding&), const compute::cpu::Binding& binding) {
     State& now = state();
     if (std::this_thread::get_id() != now.owner) throw std::logic_error("only one thread may run kernels");
     ++now.place.launch;
     ++now.launches[kernel];
     now.kernel = kernel;
     now.slots.assign(binding.slots.begin(), binding.slots.end());
-    now.order = Permutation(count, randomOf(0));
     now.numbers.clear();
 }
 
@@ -252,12 +249,13 @@ void* roomForKernels(std::size_t bytes) {
     return state().memory + Threads::count * Threads::stackBytes;
 }
 
-void runInvocations(std::uint32_t begin, std::uint32_t end, const Body& body) {
+void runInvocations(std::uint32_t count, const Body& body) {
     State& now = state();
     now.place.inGroup = false;
     now.place.coherentSlots = body.coherentSlots;
-    for (std::uint32_t k = begin; k < end; ++k) {
-        const std::uint32_t number = now.order(k);
+    const Permutation order(count, randomOf(0));
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t number = order(k);
         beginUser(number);
         now.place.thread = number % groupThreads;
         now.place.running = true;
@@ -266,12 +264,13 @@ void runInvocations(std::uint32_t begin, std::uint32_t end, const Body& body) {
     }
 }
 
-void runGroups(std::uint32_t begin, std::uint32_t end, const Body& body) {
+void runGroups(std::uint32_t count, const Body& body) {
     State& now = state();
     now.place.inGroup = true;
     now.place.coherentSlots = body.coherentSlots;
-    for (std::uint32_t k = begin; k < end; ++k) {
-        const std::uint32_t number = now.order(k);
+    const Permutation order(count, randomOf(0));
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t number = order(k);
         beginUser(number);
         runGroup(body, number);
     }

@@ -88,21 +88,20 @@ AddressRange sharedMemory();
 // The following is for work_group_kernels.cpp.
 
 // Begins a launch of the kernel of inWorkGroups() or controls() with this function Entry::count.
-void beginLaunch(std::uint32_t (*kernel)(const compute::cpu::Binding&), const compute::cpu::Binding& binding,
-                 std::uint32_t count);
+void beginLaunch(std::uint32_t (*kernel)(const compute::cpu::Binding&), const compute::cpu::Binding& binding);
 
 // Room for the objects of one kernel, one for each thread.
 void* roomForKernels(std::size_t bytes);
 
-// Calls `call(kernels, thread, number)` for the places begin .. end - 1 of the order of the launch: once, or once for
-// each thread of a work group.
+// Calls `call(kernels, thread, number)` for the numbers below `count`, in the order of the launch: once, or once for
+// each thread of a work group. `count`: at most what Entry::count gives.
 struct Body {
     void* kernels = nullptr;
     void (*call)(void* kernels, std::uint32_t thread, std::uint32_t number) = nullptr;
     std::uint32_t coherentSlots = 0;
 };
-void runInvocations(std::uint32_t begin, std::uint32_t end, const Body& body);
-void runGroups(std::uint32_t begin, std::uint32_t end, const Body& body);
+void runInvocations(std::uint32_t count, const Body& body);
+void runGroups(std::uint32_t count, const Body& body);
 
 // Waits for all threads of the work group. `buffers`: it also orders accesses to coherent buffers. `line`: of the
 // source.

@@ -57,10 +57,10 @@ class Memory(FolderTestCase):
 
     def test_a_load_beside_the_world_that_runs_is_refused_and_that_goes_on(self):
         with Server(BINARY, "serve", self.scene(200_000), "--device", "cpu:1", "--memory-limit", "350MiB") as server:
-            done = call("ctl", server.stream, "load", self.scene(300_000))
-            self.refused(done, "a scene of 300000 spheres", "--memory-limit allows 350 MiB", "what runs here holds ")
+            done = call("ctl", server.stream, "load", self.scene(270_000))
+            self.refused(done, "a scene of 270000 spheres", "--memory-limit allows 350 MiB", "what runs here holds ")
             self.assertEqual(call("ctl", server.stream, "load", "two-spheres").returncode, 0)
-            done = call("ctl", server.stream, "load", self.scene(300_000))
+            done = call("ctl", server.stream, "load", self.scene(270_000))
             self.assertEqual(done.returncode, 0, f"alone it has room: {done.stderr}")
             self.assertEqual(server.end(), 0)
 
