@@ -44,8 +44,11 @@ nlohmann::ordered_json flowOf(const sim::FlowCounts& flow) {
 nlohmann::ordered_json emittersOf(const sim::Statistics& statistics) {
     nlohmann::ordered_json emitters = nlohmann::ordered_json::array();
     for (const sim::EmitterCounts& one : statistics.emitters)
-        emitters.push_back(
-            {{"name", one.name}, {"born", flowOf(one.born)}, {"blocked", one.blocked}, {"waiting", one.waiting}});
+        emitters.push_back({{"name", one.name},
+                            {"born", flowOf(one.born)},
+                            {"blocked", one.blocked},
+                            {"waiting", one.waiting},
+                            {"ended", one.ended}});
     return emitters;
 }
 

@@ -77,10 +77,11 @@ void SceneSaver::serve(sim::Simulation& simulation) {
     if (!claim) return fail(made, claim.error().text());
     const scene::Scene& scene = simulation.scene();
     making_ = std::async(
-        std::launch::async, [this, made, claim = std::move(*claim),
-                             message = scene::describe(scene, simulation.time(), simulation.flows().emission.born()),
-                             ranks = ranksByGroup(scene), slots = simulation.pipeline().download(),
-                             population = simulation.population(), centre = scene.bounds.centre()]() mutable {
+        std::launch::async,
+        [this, made, claim = std::move(*claim),
+         message = scene::describe(scene, simulation.time(), simulation.flows().emission.progress(scene)),
+         ranks = ranksByGroup(scene), slots = simulation.pipeline().download(), population = simulation.population(),
+         centre = scene.bounds.centre()]() mutable {
             std::shared_ptr<SavedScene> document;
             try {
                 document = std::make_shared<SavedScene>(std::move(message), std::move(ranks),

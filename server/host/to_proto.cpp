@@ -68,6 +68,7 @@ void setFlows(v1::Statistics& message, const sim::Statistics& s) {
         setFlow(*to.mutable_born(), emitter.born);
         to.set_blocked(emitter.blocked);
         to.set_waiting(emitter.waiting);
+        to.set_ended(emitter.ended);
     }
     for (const sim::SinkCounts& sink : s.sinks) {
         v1::SinkCounts& to = *message.add_sinks();

@@ -76,7 +76,7 @@ void writeMaterials(const Scene& scene, google::protobuf::RepeatedPtrField<v1::M
     }
 }
 
-v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_t> born) {
+v1::Scene describe(const Scene& scene, double time, std::span<const EmitterProgress> emitters) {
     v1::Scene message;
     message.set_name(scene.name);
     message.set_description(scene.description);
@@ -86,7 +86,7 @@ v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_
     writeMaterials(scene, *message.mutable_materials(), *message.mutable_pairs());
     setBounds(message, scene, time);
     setGroups(message, scene);
-    writeEmitters(message, scene, time, born);
+    writeEmitters(message, scene, time, emitters);
     message.set_step(scene.step);
     v1::Quality& quality = *message.mutable_quality();
     quality.set_model(messageOf(scene.quality.model));

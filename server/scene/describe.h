@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "scene/scene.h"
@@ -9,8 +8,8 @@
 namespace spherule::scene {
 
 // Returns the scene as a message, with its present settings, from which build() makes the same scene. Its groups have
-// no spheres. `time`: s simulated; obstacles and emitters go on from there. `born`: spheres that each emitter has made.
-v1::Scene describe(const Scene& scene, double time, std::span<const std::uint64_t> born = {});
+// no spheres. `time`: s simulated; obstacles and emitters go on from there. `emitters`: their progress.
+v1::Scene describe(const Scene& scene, double time, std::span<const EmitterProgress> emitters = {});
 
 // Writes the materials and the pairs of a scene.
 void writeMaterials(const Scene& scene, google::protobuf::RepeatedPtrField<v1::Material>& materials,

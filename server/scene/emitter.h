@@ -51,6 +51,7 @@ struct Emitter {
     double velocitySpread = 0;             // m/s: velocities are uniform in a ball of this radius about `velocity`
     glm::vec3 spin{};                      // rad/s
     std::optional<std::uint64_t> total{};  // spheres; nullopt: no end
+    std::optional<double> untilChoked{};   // s of work without a free place, after which it ends; nullopt: never
     double origin = 0;                     // s simulated: the message's `begin` counts from here
     double begin = 0;                      // s simulated
     std::vector<Span> schedule{};          // ascending; empty: always
@@ -77,6 +78,11 @@ struct Emitter {
     [[nodiscard]] double massOf(const Sphere& sphere) const;
 
     static constexpr unsigned mostAttempts = 8;
+};
+
+struct EmitterProgress {
+    std::uint64_t born = 0;  // spheres
+    bool ended = false;      // it makes no more
 };
 
 }  // namespace spherule::scene

@@ -204,6 +204,8 @@ Emitter readEmitter(Check& check, const v1::Emitter& message, const EmitterConte
         if (message.total() == 0) check.refuse(at(field, "total"), "is 0, must be at least 1");
         emitter.total = message.total();
     }
+    if (message.has_until_choked())
+        emitter.untilChoked = check.upTo(message.until_choked(), largestComponent, at(field, "untilChoked"), " s");
     if (message.has_seed()) emitter.seed = message.seed();
     emitter.message = std::make_shared<const v1::Emitter>(message);
     readSchedule(check, message, field, emitter);
@@ -269,13 +271,13 @@ void checkEmitterSpeeds(Check& check, const Scene& scene) {
     }
 }
 
-void writeEmitters(v1::Scene& message, const Scene& scene, double time, std::span<const std::uint64_t> born) {
+void writeEmitters(v1::Scene& message, const Scene& scene, double time, std::span<const EmitterProgress> progress) {
     for (std::size_t k = 0; k < scene.emitters.size(); ++k) {
         const Emitter& emitter = scene.emitters[k];
-        if (emitter.total && born[k] >= *emitter.total) continue;
+        if (progress[k].ended) continue;
         v1::Emitter& to = *message.add_emitters();
         to = *emitter.message;
-        if (emitter.total) to.set_total(*emitter.total - born[k]);
+        if (emitter.total) to.set_total(*emitter.total - progress[k].born);
         to.set_begin(emitter.begin - time);
     }
 }

@@ -40,8 +40,8 @@ void checkBirths(Check& check, const Scene& scene, const std::string& field);
 // Refuses emitters whose spheres are faster than the scene can compute. Call it when the substeps are known.
 void checkEmitterSpeeds(Check& check, const Scene& scene);
 
-// Writes the emitters of a scene whose time begins now. `time`: s simulated. `born`: the spheres that each has made.
-// Leaves out those that have made all their spheres.
-void writeEmitters(v1::Scene& message, const Scene& scene, double time, std::span<const std::uint64_t> born);
+// Writes the emitters of a scene whose time begins now. `time`: s simulated. `progress`: of each. Leaves out those that
+// have ended.
+void writeEmitters(v1::Scene& message, const Scene& scene, double time, std::span<const EmitterProgress> progress);
 
 }  // namespace spherule::scene

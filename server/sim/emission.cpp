@@ -17,11 +17,17 @@ void Emission::add(const scene::Emitter& emitter, double time) {
 
 void Emission::replace(std::size_t number, const scene::Emitter& emitter, double time) {
     emitters_[number].waiting.clear();
+    emitters_[number].chokedFrom.reset();
+    emitters_[number].choked = false;
     startAt(emitters_[number], emitter, time);
 }
 
 void Emission::remove(std::size_t number) {
     emitters_.erase(emitters_.begin() + static_cast<std::ptrdiff_t>(number));
+}
+
+bool Emission::hasEnded(const scene::Emitter& emitter, const State& state) {
+    return state.choked || (emitter.total && state.born.spheres() >= *emitter.total);
 }
 
 // Spheres that were due before `time` are not made.
@@ -33,6 +39,7 @@ void Emission::startAt(State& state, const scene::Emitter& emitter, double time)
 
 // Adds the spheres that become due in the step, at most `room`. More of them are due in the next step.
 void Emission::makeDue(const scene::Emitter& emitter, State& state, double begin, double end, std::size_t room) {
+    if (state.choked) return;
     const double worked = emitter.workedUntil(end);
     for (std::size_t made = 0; made < room; ++made) {
         if (emitter.total && state.born.spheres() + state.waiting.size() >= *emitter.total) return;
@@ -79,6 +86,7 @@ void Emission::settle(const scene::Scene& scene, const std::vector<bool>& happen
         State& state = emitters_[k];
         std::uint64_t born = 0;
         double mass = 0;
+        const bool tried = !state.waiting.empty();
         std::erase_if(state.waiting, [&](Waiting& one) {
             if (happened[birth++]) {
                 ++born;
@@ -90,18 +98,35 @@ void Emission::settle(const scene::Scene& scene, const std::vector<bool>& happen
             return true;
         });
         if (born > 0) state.born.add(time, born, mass);
+        if (tried) followChoke(scene.emitters[k], state, born > 0, time);
     }
 }
 
-Emission::Counts Emission::counts(std::size_t emitter) const {
-    const State& state = emitters_[emitter];
-    return {.born = state.born, .blocked = state.blocked, .waiting = state.waiting.size()};
+// After attempts, of which `free` tells whether one found a place.
+void Emission::followChoke(const scene::Emitter& emitter, State& state, bool free, double time) {
+    if (free) state.chokedFrom.reset();
+    if (free || !emitter.untilChoked) return;
+    const double worked = emitter.workedUntil(time);
+    if (!state.chokedFrom) state.chokedFrom = worked;
+    if (worked - *state.chokedFrom < *emitter.untilChoked) return;
+    state.choked = true;
+    state.blocked += state.waiting.size();
+    state.waiting.clear();
 }
 
-std::vector<std::uint64_t> Emission::born() const {
-    std::vector<std::uint64_t> born;
-    for (const State& state : emitters_) born.push_back(state.born.spheres());
-    return born;
+Emission::Counts Emission::counts(const scene::Scene& scene, std::size_t emitter) const {
+    const State& state = emitters_[emitter];
+    return {.born = state.born,
+            .blocked = state.blocked,
+            .waiting = state.waiting.size(),
+            .ended = hasEnded(scene.emitters[emitter], state)};
+}
+
+std::vector<scene::EmitterProgress> Emission::progress(const scene::Scene& scene) const {
+    std::vector<scene::EmitterProgress> progress;
+    for (std::size_t k = 0; k < emitters_.size(); ++k)
+        progress.push_back({.born = emitters_[k].born.spheres(), .ended = hasEnded(scene.emitters[k], emitters_[k])});
+    return progress;
 }
 
 }  // namespace spherule::sim

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "scene/scene.h"
@@ -40,9 +41,10 @@ class Emission {
         FlowMeter born;
         std::uint64_t blocked = 0;
         std::size_t waiting = 0;
+        bool ended = false;  // it makes no more
     };
-    [[nodiscard]] Counts counts(std::size_t emitter) const;
-    [[nodiscard]] std::vector<std::uint64_t> born() const;  // by emitter
+    [[nodiscard]] Counts counts(const scene::Scene& scene, std::size_t emitter) const;
+    [[nodiscard]] std::vector<scene::EmitterProgress> progress(const scene::Scene& scene) const;  // by emitter
 
   private:
     struct Waiting {
@@ -57,7 +59,11 @@ class Emission {
         std::deque<Waiting> waiting;
         FlowMeter born;
         std::uint64_t blocked = 0;
+        std::optional<double> chokedFrom;  // s of work: since then, no place was free
+        bool choked = false;               // for so long that it has ended
     };
+    static bool hasEnded(const scene::Emitter& emitter, const State& state);
+    static void followChoke(const scene::Emitter& emitter, State& state, bool free, double time);
     static void startAt(State& state, const scene::Emitter& emitter, double time);
     static void makeDue(const scene::Emitter& emitter, State& state, double begin, double end, std::size_t room);
 

@@ -39,11 +39,12 @@ void Flows::follow(const scene::PartChange& change, const scene::Scene& scene, d
 
 void Flows::addTo(Statistics& statistics, const scene::Scene& scene) const {
     for (std::size_t k = 0; k < emission.emitters(); ++k) {
-        const Emission::Counts counts = emission.counts(k);
+        const Emission::Counts counts = emission.counts(scene, k);
         statistics.emitters.push_back({.name = scene.emitters[k].name,
                                        .born = countsOf(counts.born, statistics.time),
                                        .blocked = counts.blocked,
-                                       .waiting = counts.waiting});
+                                       .waiting = counts.waiting,
+                                       .ended = counts.ended});
     }
     for (const SinkFlow& sink : sinks)
         statistics.sinks.push_back({.taken = countsOf(sink.taken, statistics.time), .byMaterial = sink.byMaterial});

@@ -49,6 +49,7 @@ struct EmitterCounts {
     FlowCounts born;
     std::uint64_t blocked = 0;  // spheres that found no free place
     std::uint64_t waiting = 0;  // spheres that are due, and will be tried again
+    bool ended = false;         // it has made its total, or has been choked, and makes no more
 };
 
 struct SinkCounts {

@@ -64,7 +64,8 @@ std::uint64_t hashAfter(sim::Simulation& simulation, double seconds) {
 }
 
 std::string described(const sim::Simulation& simulation) {
-    return scene::describe(simulation.scene(), 0, simulation.flows().emission.born()).SerializeAsString();
+    return scene::describe(simulation.scene(), 0, simulation.flows().emission.progress(simulation.scene()))
+        .SerializeAsString();
 }
 
 void apply(sim::Simulation& simulation, const sim::Command& command) {

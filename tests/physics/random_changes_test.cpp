@@ -114,8 +114,8 @@ TEST_P(RandomChanges, AtRandomKeepTheWorldWhole) {
         EXPECT_GT(refused, 20U);
         EXPECT_LT(refused, 150U);
         // It can be saved and read again.
-        const v1::Scene saved =
-            scene::describe(simulation->scene(), simulation->time(), simulation->flows().emission.born());
+        const v1::Scene saved = scene::describe(simulation->scene(), simulation->time(),
+                                                simulation->flows().emission.progress(simulation->scene()));
         v1::Scene empty = saved;
         for (v1::Group& group : *empty.mutable_groups()) group.mutable_list();
         const auto again = scene::build(empty);
