@@ -23,7 +23,8 @@ struct FillRegion {
     Box box{};                                                           // around it
     double volume = 0;                                                   // m^3
 
-    // Returns a place (m) that is uniform among those of the centre of a sphere; nullopt if the place drawn is none.
+    // Returns a place (m) for the centre of a sphere, uniform among all such places; nullopt if the place that it draws
+    // is outside of a mesh.
     [[nodiscard]] std::optional<glm::dvec3> draw(Random& random, const Bounds& bounds, double radius) const;
     // Returns the surfaces that end it.
     [[nodiscard]] std::vector<Surface> surfaces(const Bounds& bounds) const;

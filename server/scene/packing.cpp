@@ -24,8 +24,8 @@ constexpr double mostWork = 8e9;  // pairs of spheres: about a minute
 constexpr std::uint64_t betweenLooks = 2000;  // steps, after which jammed spheres are recognised
 constexpr double jammedFall = 0.9;            // of the energy in these steps
 
-// The minimiser's constants are those of its authors, but for the steps: the unit of time is that in which two equal
-// spheres part.
+// The constants of the minimiser FIRE, as its authors give them, except the steps: the unit of time is the time in
+// which two equal spheres part.
 struct Fire {
     static constexpr double firstStep = 0.1;
     static constexpr double longestStep = 0.5;
@@ -47,8 +47,8 @@ struct Fire {
     }
 };
 
-// Soft spheres. A pair has the energy 1/2 r^2 overlap^2 with the smaller radius r, and a sphere has the mass r^2, so
-// that small and large ones move in the same time.
+// Soft spheres. A pair has the energy 1/2 r^2 overlap^2 with the smaller radius r. A sphere has the mass r^2, so that
+// small and large ones move in the same time.
 class SoftSpheres {
   public:
     SoftSpheres(const std::vector<PackedSphere>& spheres, const PackingSpace& space)

@@ -37,13 +37,13 @@ struct PackingEnd {
 // Moves spheres from random places until they do not overlap: a quench of soft spheres as in C. O'Hern et al., "Jamming
 // at zero temperature and zero applied stress", Phys. Rev. E 68, 011306 (2003), with the minimiser FIRE of E. Bitzek et
 // al., "Structural relaxation made simple", Phys. Rev. Lett. 97, 170201 (2006). Ends without success if the spheres
-// jam, after a limited amount of work, or if `check` was cancelled. Uses only exactly rounded operations besides those
-// of the surfaces, in one order, so that the places have the same bits everywhere.
+// jam, after a limited amount of work, or if `check` was cancelled. The surfaces aside, it uses exactly rounded
+// operations alone, in one order, so that the places have the same bits everywhere.
 PackingEnd pack(Check& check, std::vector<PackedSphere>& spheres, const PackingSpace& space);
 
-// Returns the share of the volume at which spheres of these radii jam, from mean, deviation and skewness of the radii:
-// K. Desmond and E. Weeks, "Influence of particle size distribution on random close packing of spheres", Phys. Rev. E
-// 90, 022204 (2014). It is for many spheres without walls.
+// Returns the share of the volume at which spheres of these radii jam, for many spheres without walls. It follows from
+// mean, deviation and skewness of the radii: K. Desmond and E. Weeks, "Influence of particle size distribution on
+// random close packing of spheres", Phys. Rev. E 90, 022204 (2014).
 double closestPacking(const std::vector<PackedSphere>& spheres);
 
 // The largest number of spheres that pack() is meant for: its work is limited.

@@ -13,7 +13,7 @@ namespace spherule::scene {
 
 namespace {
 
-constexpr double surfaceWork = 10;  // of a distance from a surface, beside that of a pair
+constexpr double surfaceWork = 10;  // of a distance from a surface; a pair has 1
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -172,6 +173,37 @@ TEST_P(Emitters, GoBackWithTheWorld) {
 INSTANTIATE_TEST_SUITE_P(Of, Emitters,
                          testing::Values(scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate),
                          [](const auto& model) { return std::string(scene::nameOf(model.param)); });
+
+// An emitter at a height fills a bin up to it, ends, and stays ended while the bed settles.
+TEST(Emitters, FillABinUpToTheirHeight) {
+    constexpr double radius = 0.015;
+    for (const double height : {0.12, 0.25}) {
+        auto simulation = simulate(sceneOf(fmt::format(
+            R"({{"bounds": {{"min": [0, 0, 0], "max": [0.3, 0.3, 0.5]}}, "materials": [{{"restitution": 0.3}}],
+            "sleep": {{"enabled": false}}, "quality": {{"model": "FAST"}},
+            "emitters": [{{"box": {{"min": [0.016, 0.016, {0}], "max": [0.284, 0.284, {0}]}}, "rate": 1000,
+                          "radius": {{"constant": {1}}}, "velocity": [0, 0, -1], "untilChoked": 0.2}}]}})",
+            height, radius)));
+        for (int tenths = 0; tenths < 60 && !simulation->statistics().emitters[0].ended; ++tenths)
+            run(*simulation, 0.1);
+        const sim::Statistics ended = simulation->statistics();
+        ASSERT_TRUE(ended.emitters[0].ended) << height;
+        EXPECT_EQ(ended.emitters[0].waiting, 0U);
+        EXPECT_EQ(ended.born, ended.spheres);
+        run(*simulation, 1);
+        const sim::Statistics later = simulation->statistics();
+        EXPECT_EQ(later.born, ended.born) << height;
+        EXPECT_EQ(later.emitters[0].blocked, ended.emitters[0].blocked) << height;
+        double highest = 0;
+        const sim::State state = simulation->state();
+        for (std::uint32_t i = 0; i < state.count(); ++i)
+            highest = std::max(highest, positionOf(state, i).z + simulation->scene().bounds.centre().z);
+        EXPECT_GT(highest, height - 2.5 * radius) << "blocked by a sphere below";
+        EXPECT_LT(highest, height + 2 * radius) << height;
+        const double volume = ended.born * 4 * std::numbers::pi / 3 * radius * radius * radius;
+        EXPECT_GT(volume / (0.3 * 0.3 * height), 0.45) << height;
+    }
+}
 
 // Many more spheres than the grid was made for: it gets more cells, and no sphere is lost.
 TEST(Emitters, OutgrowTheirGrid) {

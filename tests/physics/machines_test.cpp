@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scene/catalog.h"
+#include "scene_support.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -223,6 +226,46 @@ TEST_P(Machines, ScrewLiftsBallsForEver) {
     }
     RecordProperty("rising", std::to_string(rising));
     EXPECT_GT(rising, 0.5);  // m/s, summed over the balls in the tube
+}
+
+// Spheres per second out of a screw feeder, below an emitter that keeps its trough full. `turns`: per second.
+double screwFlow(double turns, std::uint64_t seed) {
+    constexpr const char* text = R"({{
+        "bounds": {{"min": [0, -0.18, -0.18], "max": [1.2, 0.18, 0.5]}}, "sleep": {{"enabled": false}},
+        "materials": [{{"density": 1200, "restitution": 0.3, "friction": 0.3}}],
+        "obstacles": [
+            {{"mesh": {{"solid": true}}, "rotation": {{"axis": [0, 1, 0], "degrees": 90}}, "translation": [0.01, 0, 0],
+              "motion": {{"spin": [{}, 0, 0]}}}},
+            {{"cylinder": {{"from": [0.4, 0, 0], "to": [1, 0, 0], "radius": 0.172, "open": true}}}},
+            {{"disc": {{"centre": [0.4, 0, 0], "normal": [1, 0, 0], "radius": 0.7, "hole": 0.172}}}}],
+        "emitters": [{{"box": {{"min": [0.03, -0.15, 0.35], "max": [0.36, 0.15, 0.35]}}, "rate": 500, "seed": {},
+                      "velocity": [0, 0, -1], "radius": {{"uniform": {{"min": 0.022, "max": 0.026}}}}}}],
+        "sinks": [{{"region": {{"min": [1.02, -1, -1], "max": [2, 1, 1]}}}}]}})";
+    v1::Scene message = scene::testing::parsed(fmt::format(text, -2 * pi * turns, seed));
+    const v1::Scene screw = scene::testing::parsed(std::string(scene::embeddedScene("screw", "cpu").value()));
+    message.mutable_obstacles(0)->mutable_mesh()->set_data(screw.obstacles(1).mesh().data());
+    const auto simulation = simulate(valueOf(scene::build(message)));
+    const double fills = 2 + 4 / turns;  // s; the tube has three turns
+    run(*simulation, fills);
+    const std::uint64_t before = simulation->statistics().sinks[0].taken.spheres;
+    EXPECT_GT(simulation->statistics().emitters[0].blocked, 0U) << "the trough is full";
+    run(*simulation, 4 / turns);
+    return static_cast<double>(simulation->statistics().sinks[0].taken.spheres - before) / (4 / turns);
+}
+
+// The flow is linear in the speed, and below the volume that the blade sweeps. P. Owen and P. Cleary, "Prediction of
+// screw conveyor performance using the Discrete Element Method", Powder Technology 193 (2009).
+TEST_P(Machines, ScrewFeederIsLinearInItsSpeed) {
+    const double slow = screwFlow(0.75, GetParam());
+    const double fast = screwFlow(1.5, GetParam());
+    const double swept = pi * (0.172 * 0.172 - 0.031 * 0.031) * 0.2;  // m^3 per turn
+    constexpr double densest = 0.64;
+    const double meanVolume = 4 * pi / 3 * 0.024 * 0.024 * 0.024;
+    const double bound = 0.75 * densest * swept / meanVolume;
+    RecordProperty("rate", fmt::format("{} and {} per second, at most {}", slow, fast, bound));
+    EXPECT_NEAR(fast / (2 * slow), 1, 0.1);
+    EXPECT_LT(slow, bound);
+    EXPECT_GT(slow, 0.3 * bound);
 }
 
 // The floor throws the piston up, and the balls stay below it.

@@ -214,8 +214,8 @@ TEST(Emitters, GoOnInASavedScene) {
     const Scene scene = sceneWith("\"emitters\": [{" + std::string(ball) + ", " + std::string(flow) +
                                   R"(, "total": 10, "begin": 1}, {)" + std::string(ball) + ", " + std::string(flow) +
                                   R"(, "total": 5}])");
-    const std::vector<std::uint64_t> born{3, 5};
-    const v1::Scene saved = describe(scene, 4, born);
+    const std::vector<EmitterProgress> progress{{.born = 3}, {.born = 5, .ended = true}};
+    const v1::Scene saved = describe(scene, 4, progress);
     ASSERT_EQ(saved.emitters_size(), 1) << "the other one is done";
     EXPECT_EQ(saved.emitters(0).total(), 7U);
     EXPECT_EQ(saved.emitters(0).begin(), -3);

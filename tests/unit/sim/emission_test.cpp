@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "scene/random.h"
 #include "scene_support.h"
 #include "sim/emission.h"
@@ -107,6 +109,32 @@ TEST(Emission, TriesASphereInOtherPlacesAndThenCountsItAsBlocked) {
     EXPECT_EQ(emission.counts(scene, 0).blocked, 1U);
     advance(emission, scene, 8, 1, always);
     EXPECT_EQ(emission.counts(scene, 0).born.spheres(), 1U) << "blocked spheres do not count in the total";
+}
+
+// It ends when no place has been free for this time, and makes no more when places are free again.
+TEST(Emission, EndsWhenItIsChoked) {
+    for (const double rate : {20.0, 60.0, 3000.0}) {
+        const scene::Scene scene = withEmitter(fmt::format(R"("rate": {}, "untilChoked": 0.5)", rate));
+        Emission emission(scene, 0);
+        advance(emission, scene, 0, 60, always);
+        const std::uint64_t born = emission.counts(scene, 0).born.spheres();
+        advance(emission, scene, 60, 25, never);
+        EXPECT_FALSE(emission.counts(scene, 0).ended) << rate;
+        advance(emission, scene, 85, 1, always);  // one free place begins the time anew
+        advance(emission, scene, 86, 25, never);
+        EXPECT_FALSE(emission.counts(scene, 0).ended) << rate;
+        advance(emission, scene, 111, 60, never);
+        EXPECT_TRUE(emission.counts(scene, 0).ended) << rate;
+        EXPECT_EQ(emission.counts(scene, 0).waiting, 0U) << rate;
+        const std::uint64_t last = emission.counts(scene, 0).born.spheres();
+        EXPECT_GE(last, born) << rate;
+        advance(emission, scene, 171, 100, always);
+        EXPECT_EQ(emission.counts(scene, 0).born.spheres(), last) << rate;
+        EXPECT_TRUE(emission.progress(scene)[0].ended) << rate;
+        emission.replace(0, scene.emitters[0], 271 * scene.step);
+        advance(emission, scene, 271, 60, always);
+        EXPECT_GT(emission.counts(scene, 0).born.spheres(), last) << "a changed emitter begins again, rate " << rate;
+    }
 }
 
 // While births are blocked, those that wait are bounded.
