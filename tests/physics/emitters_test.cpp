@@ -195,7 +195,7 @@ TEST(Emitters, FillABinUpToTheirHeight) {
         EXPECT_EQ(later.born, ended.born) << height;
         EXPECT_EQ(later.emitters[0].blocked, ended.emitters[0].blocked) << height;
         double highest = 0;
-        const sim::State state = simulation->state();
+        const sim::State state = simulation->snapshot();
         for (std::uint32_t i = 0; i < state.count(); ++i)
             highest = std::max(highest, positionOf(state, i).z + simulation->scene().bounds.centre().z);
         EXPECT_GT(highest, height - 2.5 * radius) << "blocked by a sphere below";

@@ -244,7 +244,7 @@ double screwFlow(double turns, std::uint64_t seed) {
     v1::Scene message = scene::testing::parsed(fmt::format(text, -2 * pi * turns, seed));
     const v1::Scene screw = scene::testing::parsed(std::string(scene::embeddedScene("screw", "cpu").value()));
     message.mutable_obstacles(0)->mutable_mesh()->set_data(screw.obstacles(1).mesh().data());
-    const auto simulation = simulate(valueOf(scene::build(message)));
+    const auto simulation = simulate(support::valueOf(scene::build(message)));
     const double fills = 2 + 4 / turns;  // s; the tube has three turns
     run(*simulation, fills);
     const std::uint64_t before = simulation->statistics().sinks[0].taken.spheres;

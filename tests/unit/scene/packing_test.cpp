@@ -233,8 +233,7 @@ TEST(ScenePacking, RefusesWrongRegions) {
               "bounds larger");
     EXPECT_EQ(refusalOf(packed(unitBox + R"(, "translation": [0, 0, 1])", 0.3, radius)),
               "groups[0].fill.translation: is given without `inMesh`; leave it out");
-    EXPECT_EQ(refusalOf(packed(unitBox, 1.5, radius)),
-              "groups[0].fill.fraction: is 1.5, must be at most 1");
+    EXPECT_EQ(refusalOf(packed(unitBox, 1.5, radius)), "groups[0].fill.fraction: is 1.5, must be at most 1");
     v1::Scene sheet =
         parsed(object(R"("bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}, )" + packed(R"("inMesh": {})", 0.3, radius)));
     sheet.mutable_groups(0)->mutable_fill()->mutable_in_mesh()->set_data("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
