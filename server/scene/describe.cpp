@@ -5,6 +5,7 @@
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
 #include "scene/surroundings.h"
+#include "scene/view.h"
 
 namespace spherule::scene {
 
@@ -96,6 +97,7 @@ v1::Scene describe(const Scene& scene, double time, std::span<const EmitterProgr
     setVector(*message.mutable_camera()->mutable_eye(), scene.camera.eye);
     setVector(*message.mutable_camera()->mutable_target(), scene.camera.target);
     message.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
+    if (scene.light) *message.mutable_light() = messageOf(*scene.light);
     message.mutable_sleep()->set_enabled(scene.sleep.enabled);
     message.mutable_sleep()->set_speed(scene.sleep.speed);
     message.mutable_sleep()->set_time(scene.sleep.time);

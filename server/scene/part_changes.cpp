@@ -204,6 +204,16 @@ std::string usersOf(const Scene& scene, std::size_t material) {
     return fmt::format("{} and {} more", fmt::join(users, ", "), more);
 }
 
+// Refuses a material without a name that pairs name: a scene file could not.
+void checkPairsName(Check& check, const Scene& scene, std::size_t material) {
+    if (!scene.materials[material].name.empty()) return;
+    for (std::size_t k = 0; k < scene.pairs.size() && check.ok(); ++k)
+        if (scene.pairs[k].a == material || scene.pairs[k].b == material)
+            check.refuse("material.name", fmt::format("is empty, but {} is of this material; give it a name, or remove "
+                                                      "the pair first",
+                                                      at("pairs", k)));
+}
+
 // Gives the materials behind `gone` their new numbers.
 void renumber(std::uint8_t& material, std::size_t gone) {
     if (material == gone)
@@ -230,6 +240,7 @@ Result<PartChange> changePart(Scene& scene, const v1::ChangeMaterial& message) {
     std::vector<Material> others = scene.materials;
     erase(others, number);
     scene.materials[number] = readMaterial(check, message.material(), others, number == 0, "material");
+    if (check.ok()) checkPairsName(check, scene, number);
     if (check.ok()) updateEmitters(check, scene, number);
     return checked(check, scene, {Part::Materials, Kind::Changed, number});
 }

@@ -30,6 +30,8 @@ struct Material {
     double spinningResistance = 0;
     double young = 0;  // Pa; 0: chosen by the model
     double poisson = 0.25;
+
+    bool operator==(const Material&) const = default;
 };
 
 // Values between materials `a` and `b`. They replace the values computed from each material.

@@ -178,6 +178,7 @@ void Preparation::upload() {
 
 // Carries out the change on the scene as it is now. If the plan does not suit it any more, another one is made.
 Result<void> Preparation::meetPresent() {
+    if (auto finite = continues_->checkFinite(); !finite) return finite;
     scene::Scene now = continues_->scene_;
     now.time = continues_->time();
     auto made = change_->make(now);

@@ -40,7 +40,8 @@ class Simulation {
     [[nodiscard]] double shareOfStep() const;  // share of the step under way that is done, 0 to 1
 
     // The outcome of a command: it is done, or it needs `preparation`. Pass the preparation to adopt() once it is done.
-    // Until then nothing has changed, and no other call may change the simulation.
+    // Until then the command has changed nothing. The simulation may go on if Preparation::letsStep(), and otherwise no
+    // other call may change it.
     struct Outcome {
         Applied applied{};
         std::unique_ptr<Preparation> preparation{};  // null: the command is done
@@ -161,9 +162,10 @@ class Simulation {
         std::uint64_t session = 0;
         std::uint64_t sphere = 0;  // id
         glm::dvec3 point{};        // m
-        double rate = 0;           // 1/s: the square root of stiffness over mass
+        double stiffness = 0;      // N/m
     };
     Result<glm::dvec3> pull(const Pull& pull, std::uint32_t rank);
+    [[nodiscard]] double rateOf(const PullSpring& spring, std::uint32_t rank) const;
     Result<void> writePulls();
     void keepPulls();
     struct PullLimits {
@@ -175,6 +177,7 @@ class Simulation {
     Result<Outcome> changeObstacle(const ChangeObstacle& change);
     Result<void> checkWay(const scene::Obstacle& obstacle, const scene::Obstacle* before, const State& state) const;
     void continueWith(Preparation& preparation);
+    Result<void> checkFinite();
     Result<Outcome> changePart(const ChangePart& change);
     Result<Outcome> removeGroup(const RemoveGroup& remove);
     [[nodiscard]] bool keepsGrid(const scene::Scene& changed) const;

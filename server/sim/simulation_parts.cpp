@@ -17,11 +17,18 @@ namespace {
 using Part = scene::PartChange::Part;
 using Kind = scene::PartChange::Kind;
 
+// True if a changed material has more than another name.
+bool changesLaws(scene::Material before, const scene::Material& after) {
+    before.name = after.name;
+    return before != after;
+}
+
 // True if the laws of contacts between spheres, walls and obstacles may differ after the change, or masses.
 bool changesContacts(const scene::PartChange& change, const scene::Scene& before, const scene::Scene& after) {
     switch (change.part) {
         case Part::Materials:
-            return change.kind == Kind::Changed;
+            return change.kind == Kind::Changed &&
+                   changesLaws(before.materials[change.number], after.materials[change.number]);
         case Part::Pairs:
             return true;
         case Part::Groups:
@@ -64,7 +71,16 @@ bool Simulation::keepsKernels(const scene::Scene& changed) const {
     return changed.materials.size() == scene_.materials.size() || !plan().has(Array::ContactParams);
 }
 
+// Refuses a change while the state is not finite: it would be kept as the last good one.
+Result<void> Simulation::checkFinite() {
+    const auto counters = pipeline_->read<std::uint32_t>(Array::Counters);
+    if (counters[COUNTER_NON_FINITE] == 0) return {};
+    return fail(ErrorKind::Refused, "",
+                "a sphere has no finite position any more; go back to the last good state, then change the scene");
+}
+
 Result<Simulation::Outcome> Simulation::changePart(const ChangePart& change) {
+    if (auto finite = checkFinite(); !finite) return tl::unexpected(finite.error());
     auto copies = memory::Claim::make("", "a change of the scene", copiesToChange(plan()));
     if (!copies) return tl::unexpected(copies.error());
     scene::Scene changed = scene_;
@@ -91,7 +107,8 @@ void Simulation::takePart(scene::Scene changed, const scene::PartChange& change,
     if (changesFacts(scene_, changed)) ++groupsVersion_;
     const bool newCells = preparation != nullptr && takePipeline(*preparation, changed);
     scene_ = std::move(changed);
-    if (change.part == Part::Materials || (change.part == Part::Groups && acts)) {
+    const bool renumbers = change.part == Part::Materials && change.kind == Kind::Removed;
+    if (renumbers || (acts && change.part != Part::Pairs)) {
         std::vector<std::uint8_t> materials(population_.handles());
         std::vector<float> inverseMasses(population_.handles());
         for (std::uint32_t rank = 0; rank < count(); ++rank) {
@@ -119,6 +136,7 @@ void Simulation::takePart(scene::Scene changed, const scene::PartChange& change,
 
 // Goes on with other arrays and kernels. Returns true if the cells, and so the handles of the spheres, are new.
 bool Simulation::takePipeline(Preparation& preparation, const scene::Scene& changed) {
+    addImpacts(impacts_, *pipeline_);
     if (preparation.keepsGrid_) {
         preparation.pipeline_->takeFrom(*pipeline_);
     } else {
@@ -156,6 +174,7 @@ void Simulation::wakeWhere(const scene::Forces& before) {
 Result<Simulation::Outcome> Simulation::removeGroup(const RemoveGroup& removed) {
     if (auto right = scene::checkNumber(removed.number, scene_.groups.size(), "groups"); !right)
         return tl::unexpected(right.error());
+    if (auto finite = checkFinite(); !finite) return tl::unexpected(finite.error());
     const auto copies = memory::Claim::make("", "removing spheres", copiesToChange(plan()));
     if (!copies) return tl::unexpected(copies.error());
     std::vector<std::uint32_t> ranks;

@@ -37,7 +37,9 @@ bool Simulation::fitsPlan(std::uint64_t spheres) const {
 
 // True if the spheres that `grown` has in addition need no other arrays or kernels, and no cells of another size.
 bool Simulation::canAppend(const scene::Scene& grown) const {
-    if (!plan().features.hasAll(featuresOf(grown)) || grown.groups.size() < scene_.groups.size()) return false;
+    // With empty groups gone, the present spheres have other groups.
+    if (grown.groups.size() != scene_.groups.size() + 1) return false;
+    if (!plan().features.hasAll(featuresOf(grown))) return false;
     if (!fitsPlan(grown.spheres.size())) return false;
     return std::ranges::all_of(grown.spheres.begin() + count(), grown.spheres.end(), [&](const scene::Sphere& sphere) {
         const auto radius = static_cast<double>(sphere.radius);

@@ -10,6 +10,7 @@
 #include "scene/quality.h"
 #include "sim/memory_needs.h"
 #include "sim/simulation.h"
+#include "sim/state.h"
 
 namespace spherule::sim {
 
@@ -48,7 +49,7 @@ Result<glm::dvec3> Simulation::pull(const Pull& pull, std::uint32_t rank) {
             ErrorKind::Refused, "stiffness",
             fmt::format("is {:g} N/m, must be above 0 and at most {:g} for sphere {}", stiffness, most, pull.sphere),
             Cause::Range, {.least = 0, .most = most});
-    const PullSpring spring{pull.session, pull.sphere, pull.point, std::sqrt(stiffness / mass)};
+    const PullSpring spring{pull.session, pull.sphere, pull.point, stiffness};
     const auto mine = std::ranges::find(pulls_, pull.session, &PullSpring::session);
     if (mine == pulls_.end() && pulls_.size() >= MOST_PULLS)
         return fail(ErrorKind::Refused, "",
@@ -74,6 +75,11 @@ void Simulation::release(std::uint64_t session) {
     if (std::erase_if(pulls_, [&](const PullSpring& spring) { return spring.session == session; }) > 0) keepPulls();
 }
 
+// The square root of stiffness over mass (1/s). The mass may have fallen since the pull began.
+double Simulation::rateOf(const PullSpring& spring, std::uint32_t rank) const {
+    return std::min(std::sqrt(spring.stiffness / massOf(scene_, scene_.spheres[rank])), mostRate);
+}
+
 // Sends the springs to the device.
 Result<void> Simulation::writePulls() {
     std::vector<glm::vec4> rows;
@@ -81,7 +87,7 @@ Result<void> Simulation::writePulls() {
         const std::uint32_t rank = *population_.rankOf(spring.sphere);
         const glm::vec3 point(spring.point - scene_.bounds.centre());
         const PullLimits limits = pullLimits(static_cast<double>(scene_.spheres[rank].radius));
-        rows.emplace_back(point, static_cast<float>(spring.rate));
+        rows.emplace_back(point, static_cast<float>(rateOf(spring, rank)));
         rows.emplace_back(limits.acceleration, limits.speed, population_.handleAt(rank), 0);
     }
     return pipeline_->setPulls(rows);
@@ -105,8 +111,9 @@ glm::dvec3 Simulation::forceOf(const PullSpring& spring, std::uint32_t rank) {
     const scene::Body body = scene::bodyOf(scene_, scene_.spheres[rank]);
     const glm::dvec3 mean = glm::dvec3(velocity) + scene_.forces.accelerationAt(place, body) * (0.5 * substep);
     const glm::dvec3 path = scene::separation(spring.point, place, scene_.bounds.periods());
-    const double share = 1 / ((1 + substep * spring.rate) * (1 + substep * spring.rate));
-    const glm::dvec3 given = limited(path * (spring.rate * spring.rate * share), pullLimits(body.radius).acceleration);
+    const double rate = rateOf(spring, rank);
+    const double share = 1 / ((1 + substep * rate) * (1 + substep * rate));
+    const glm::dvec3 given = limited(path * (rate * rate * share), pullLimits(body.radius).acceleration);
     return (given - mean * ((1 - share) / substep)) / std::abs(velocity.w);
 }
 

@@ -180,7 +180,7 @@ TEST(Emitters, FillABinUpToTheirHeight) {
     for (const double height : {0.12, 0.25}) {
         auto simulation = simulate(sceneOf(fmt::format(
             R"({{"bounds": {{"min": [0, 0, 0], "max": [0.3, 0.3, 0.5]}}, "materials": [{{"restitution": 0.3}}],
-            "sleep": {{"enabled": false}}, "quality": {{"model": "FAST"}},
+            "sleep": {{"enabled": false}},
             "emitters": [{{"box": {{"min": [0.016, 0.016, {0}], "max": [0.284, 0.284, {0}]}}, "rate": 1000,
                           "radius": {{"constant": {1}}}, "velocity": [0, 0, -1], "untilChoked": 0.2}}]}})",
             height, radius)));

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -154,6 +157,71 @@ TEST(PartChange, OfAMaterialInUseIsRefused) {
     EXPECT_EQ(simulation->count(), 0U);
     EXPECT_EQ(remove(1), "applied");
     EXPECT_TRUE(simulation->scene().pairs.empty());
+}
+
+TEST(PartChange, KeepsTheNamesOfPairs) {
+    auto simulation = simulate(fallingBox(Model::Balanced, R"(, "pairs": [{"a": "oak", "b": "cork", "friction": 1}])",
+                                          R"({"name": "oak"}, {"name": "cork"})"));
+    EXPECT_EQ(refusalOf(*simulation, change<v1::ChangeMaterial>(R"({"number": 0, "material": {"friction": 0.3}})")),
+              "material.name: is empty, but pairs[0] is of this material; give it a name, or remove the pair first");
+    apply(*simulation, change<v1::SetPair>(R"({"pair": {"a": "oak", "b": "cork"}})"));
+    apply(*simulation, change<v1::ChangeMaterial>(R"({"number": 0, "material": {"friction": 0.3}})"));
+}
+
+// A state that is not finite is not kept as the last good one.
+TEST(PartChange, IsRefusedBesideANonFiniteSphere) {
+    scene::Scene scene = fallingBox(Model::Fast);
+    scene.quality.substeps = 8;
+    auto simulation = simulate(scene);
+    run(*simulation, 0.1);
+    const std::uint64_t good = simulation->steps();
+    sim::State broken = simulation->snapshot();
+    broken.velocity[0].x = std::numeric_limits<float>::quiet_NaN();
+    simulation->upload(broken);
+    ASSERT_TRUE(simulation->advance());
+    ASSERT_TRUE(simulation->advance());
+    ASSERT_TRUE(simulation->midStep());
+    const std::string why =
+        "a sphere has no finite position any more; go back to the last good state, then change the scene";
+    EXPECT_EQ(refusalOf(*simulation, addField(fields[0])), why);
+    EXPECT_EQ(refusalOf(*simulation, change<v1::ChangeGroup>(R"({"number": 0, "name": "g"})")), why);
+    EXPECT_EQ(refusalOf(*simulation, sim::RemoveGroup{0}), why);
+    simulation->rollback();
+    EXPECT_LE(simulation->steps(), good);
+    apply(*simulation, addField(fields[0]));
+    run(*simulation, 0.1);
+    EXPECT_EQ(simulation->statistics().nonFinite, 0U);
+}
+
+// Spheres that are added when a scene has its most groups take the place of an empty group. The others keep theirs.
+TEST(PartChange, KeepsGroupsAtTheirLimit) {
+    std::string groups;
+    for (std::size_t k = 0; k < scene::maxGroups; ++k)
+        groups +=
+            fmt::format(R"({}{{"name": "g{}", "radius": {{"constant": 0.1}}, "list": {{"spheres": [{{"position":
+                              [{}, {}, 1]}}]}}}})",
+                        k == 0 ? "" : ",", k, 0.5 + static_cast<double>(k % 100), 0.5 + static_cast<double>(k / 100));
+    auto simulation = simulate(sceneOf(fmt::format(
+        R"({{"bounds": {{"min": [0, 0, 0], "max": [101, 101, 2]}}, "sphereContacts": false, "quality": {{"model": "FAST"}},
+             "groups": [{}]}})",
+        groups)));
+    apply(*simulation, sim::Remove{.spheres = {100}});
+    apply(*simulation,
+          sim::Spawn{.name = "new", .place = [](const scene::Scene& now, Progress&) {
+                         return std::vector<scene::Sphere>{{.position = glm::dvec3(50, 50, 1.5),
+                                                            .radius = 0.1F,
+                                                            .group = static_cast<std::uint16_t>(now.groups.size())}};
+                     }});
+    const scene::Scene& scene = simulation->scene();
+    ASSERT_EQ(scene.groups.size(), scene::maxGroups);
+    std::vector<std::uint32_t> counts(scene.groups.size());
+    for (std::uint32_t rank = 0; rank < simulation->count(); ++rank) {
+        const std::uint64_t id = simulation->population().idAt(rank);
+        const std::uint16_t group = scene.spheres[rank].group;
+        ASSERT_EQ(scene.groups.at(group).name, id < scene::maxGroups ? fmt::format("g{}", id) : "new") << id;
+        ++counts[group];
+    }
+    for (std::size_t k = 0; k < counts.size(); ++k) ASSERT_EQ(scene.groups[k].count, counts[k]) << k;
 }
 
 TEST(PartChange, IsCheckedWithTheWholeScene) {

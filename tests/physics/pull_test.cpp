@@ -89,6 +89,26 @@ TEST_P(Pulls, HangingSpheresSagByTheirWeight) {
     }
 }
 
+// The stiffness stays as it was asked for when the sphere gets another mass.
+TEST_P(Pulls, KeepTheirStiffnessWhenTheMassChanges) {
+    scene::Scene scene = oneSphere(GetParam(), {}, {});
+    scene.forces.gravity = {0, 0, -9.81};
+    const auto simulation = simulate(scene);
+    const double stiffness = mass * 900;
+    (void)pull(*simulation, {.session = 1, .sphere = 0, .point = {}, .stiffness = stiffness});
+    for (const double density : {1000.0, 500.0, 1500.0}) {
+        const auto changed = simulation->apply(sim::ChangePart{.make = [density](scene::Scene& all) {
+            all.materials[0].density = density;
+            return Result<scene::PartChange>({scene::PartChange::Part::Materials, scene::PartChange::Kind::Changed, 0});
+        }});
+        ASSERT_TRUE(changed) << changed.error().text();
+        run(*simulation, 2);
+        const double sag = -sim::positionOf(simulation->snapshot(), 0).z;
+        const double expected = mass * density / 1000 * 9.81 / stiffness;
+        EXPECT_NEAR(sag, expected, 0.01 * expected) << density;
+    }
+}
+
 TEST_P(Pulls, GivesTheMomentumOfTheForceThatItReports) {
     scene::Random random(9);
     for (int seed = 0; seed < seeds(); ++seed) {

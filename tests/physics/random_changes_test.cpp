@@ -72,7 +72,8 @@ class Editor {
                            below(4));
     }
     std::string material() {
-        return fmt::format(R"({{"name": "m{}", "density": {}, "friction": {}, "rollingResistance": {}}})", below(4),
+        const std::string name = below(4) == 0 ? "" : fmt::format("m{}", below(4));
+        return fmt::format(R"({{"name": "{}", "density": {}, "friction": {}, "rollingResistance": {}}})", name,
                            random_.uniform(200, 3000), random_.uniform(-0.1, 0.8), below(2) == 0 ? 0.0 : 0.02);
     }
 

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "scene/describe.h"
 #include "scene/materials.h"
 #include "scene_support.h"
 
@@ -95,6 +96,8 @@ TEST(SceneView, LightIsReadAndPassedOn) {
         sceneWith(R"("light": {"direction": [0, 3, 4], "strength": 2, "colour": "#ffeedd", "sky": 0})").light;
     ASSERT_TRUE(light);
     EXPECT_LT(glm::distance(*light->direction, glm::dvec3(0, 0.6, 0.8)), 1e-12);
+    EXPECT_EQ(describe(sceneWith(R"("light": {"strength": 2})"), 0).light().strength(), 2) << "in a saved scene";
+    EXPECT_FALSE(describe(sceneWith(""), 0).has_light());
     const v1::Light message = messageOf(*light);
     EXPECT_NEAR(message.direction(2), 0.8, 1e-12);
     EXPECT_EQ(message.strength(), 2);
