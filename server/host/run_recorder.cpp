@@ -62,6 +62,7 @@ Result<void> RunRecorder::beginEpoch() {
     ++epoch_;
     generation_ = simulation_.generation();
     population_ = simulation_.population().version();
+    groups_ = simulation_.groupsVersion();
     if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch_)); !done) return done;
     const std::vector<std::uint32_t> ids = encode::mortonOrder(simulation_.snapshot().position);
     std::vector<std::uint32_t> handles;
@@ -82,8 +83,9 @@ Result<void> RunRecorder::stepped(bool last) {
     const bool otherSpheres = simulation_.population().version() != population_;
     if (otherSpheres && simulation_.count() == 0) return {};
     if (!encoding_.encoder && simulation_.count() == 0) return {};  // emitters have made none yet
+    const bool otherFacts = otherSpheres || simulation_.groupsVersion() != groups_;
     // Emitters and sinks may change the spheres in each step: only the frames need their number.
-    if (!encoding_.encoder || simulation_.generation() != generation_ || (otherSpheres && due)) {
+    if (!encoding_.encoder || simulation_.generation() != generation_ || (otherFacts && due)) {
         encoding_.encoder.reset();
         encoding_.context.reset();
         auto encoding = makeEncoding(options_, device_, simulation_);

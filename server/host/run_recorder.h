@@ -58,6 +58,7 @@ class RunRecorder {
     std::uint32_t epoch_ = 0;
     std::uint32_t generation_ = 0;
     std::uint64_t population_ = 0;  // its version
+    std::uint64_t groups_ = 0;      // their version
     std::uint64_t sequence_ = 0;
     double due_ = 0;        // number of the next frame, which is due at due_ / rate
     double keyframe_ = 0;   // time of the last keyframe (s simulated)

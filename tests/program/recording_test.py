@@ -145,6 +145,14 @@ class Record(RecordingTestCase):
         self.assertEqual(self.bytes_of(device="cpu:1"), once)
         self.assertNotEqual(self.bytes_of("--seed", "7"), once)
 
+    def test_a_group_that_changes_in_the_run_has_its_new_name(self):
+        script = self.write("rename.txt", '0.1s change_group 0 {"name": "renamed", "colour": "#ff0000"}\n')
+        self.run_done("cradle", "--for", "0.3s", "--script", script)
+        with open(self.recording, "rb") as file:
+            recorded = file.read()
+        self.assertEqual(recorded.count(b"renamed"), 1)
+        self.assertEqual(len(frames_of(self.export("csv", "renamed.csv"))), 10)
+
     def test_recording_changes_nothing(self):
         plain = call("run", "box-4k", "--for", "0.5s", "--device", "cpu", "--json")
         recorded = self.run_done("box-4k", "--for", "0.5s", "--json")
