@@ -21,6 +21,7 @@ namespace {
 
 constexpr double mostRate = 1e6;  // spheres/s
 constexpr int mostSpans = 1000;
+constexpr double shortestSpan = 1e-6;  // s; so a schedule repeats less often than a double can count
 constexpr std::uint64_t samplesPerEmitter = 256;
 
 EmissionRegion readBox(Check& check, const v1::Box& message, const std::string& field) {
@@ -76,18 +77,22 @@ void readSchedule(Check& check, const v1::Emitter& message, const std::string& f
     for (int k = 0; k < message.schedule_size() && check.ok(); ++k) {
         const std::string place = at(at(field, "schedule"), static_cast<std::size_t>(k));
         const Span span{check.within(message.schedule(k).from(), 0, largestComponent, at(place, "from"), " s"),
-                        check.within(message.schedule(k).to(), 0, largestComponent, at(place, "to"), " s")};
+                        check.within(message.schedule(k).to(), shortestSpan, largestComponent, at(place, "to"), " s")};
         if (check.ok() && span.from < end)
             check.refuse(
                 at(place, "from"),
                 fmt::format("is {} s, but the time before it ends at {} s; give them in order", span.from, end));
-        if (check.ok() && !(span.to > span.from))
-            check.refuse(at(place, "to"), fmt::format("is {} s, must be above from, {} s", span.to, span.from));
+        if (check.ok() && !(span.to - span.from >= shortestSpan))
+            check.refuse(at(place, "to"), fmt::format("is {} s, must be at least {} s after from, which is {} s",
+                                                      span.to, shortestSpan, span.from));
         emitter.schedule.push_back(span);
         end = span.to;
     }
     emitter.repeat = check.within(message.repeat(), 0, largestComponent, at(field, "repeat"), " s");
     if (!check.ok() || emitter.repeat == 0) return;
+    if (emitter.repeat < shortestSpan)
+        check.refuse(at(field, "repeat"),
+                     fmt::format("is {} s, must be 0 or at least {} s", emitter.repeat, shortestSpan));
     if (emitter.schedule.empty()) check.refuse(at(field, "repeat"), "needs a schedule");
     if (emitter.repeat < end)
         check.refuse(at(field, "repeat"),

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cctype>
 #include <optional>
 #include <string>
@@ -20,19 +21,27 @@ bool isSection(std::string_view line) {
     return !line.empty() && std::isupper(static_cast<unsigned char>(line.front())) != 0;
 }
 
+// Returns the text after the first # of a line without blanks around it; empty if there is none.
+std::string_view commentIn(std::string_view line) {
+    constexpr std::string_view blanks = " \t";
+    line.remove_prefix(std::min(line.find('#'), line.size()));
+    const std::size_t first = line.find_first_not_of(blanks, 1);
+    if (first == std::string_view::npos) return {};
+    return line.substr(first, line.find_last_not_of(blanks) + 1 - first);
+}
+
 // The atom style follows the name of the section Atoms, as a comment.
 std::optional<std::string> styleIn(TableReader& reader) {
-    const auto words = reader.words();
-    const std::string style = words.size() == 3 && words[1] == "#" ? std::string(words[2]) : "";
-    if (style == "sphere" || style == "atomic") return style;
-    if (words.size() < 3)
+    const std::string_view style = commentIn(reader.text());
+    if (style == "sphere" || style == "atomic") return std::string(style);
+    if (style.empty())
         reader.refuse(1,
                       "the section Atoms does not name its atom style; write \"Atoms # sphere\" or \"Atoms # "
                       "atomic\"");
     else
-        reader.refuse(words[2], fmt::format("the atom style is {}, must be sphere or atomic; write the data file with "
-                                            "one of them",
-                                            shown(reader.text().substr(reader.text().find('#') + 2))));
+        reader.refuse(style, fmt::format("the atom style is {}, must be sphere or atomic; write the data file with "
+                                         "one of them",
+                                         shown(style)));
     return std::nullopt;
 }
 
@@ -73,10 +82,17 @@ class DataFile {
     }
 
   private:
+    // Moves to the next line, without its comment.
+    bool nextLine() {
+        const bool more = reader_.nextLine();
+        reader_.cutAt('#');
+        return more;
+    }
+
     // Moves to row `index` of a section; the first one comes after blank lines. Refuses the end of the file.
     bool nextRow(std::uint64_t index, std::string_view section) {
-        bool more = reader_.nextLine();
-        while (more && index == 0 && reader_.words().empty()) more = reader_.nextLine();
+        bool more = nextLine();
+        while (more && index == 0 && reader_.words().empty()) more = nextLine();
         if (!more)
             reader_.refuse(
                 1, fmt::format("the file ends after {} of {} lines of the section {}", index, *atoms_, section));

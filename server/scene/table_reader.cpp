@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 #include <system_error>
 
 namespace spherule::scene {
@@ -35,6 +37,7 @@ bool TableReader::nextLine(std::size_t mostBytes) {
     if (!lines_ || !check_.ok()) return false;
     if (line() % betweenMarks == 0 && !check_.goesOn("reading spheres", lines_->bytesRead(), lines_->size()))
         return false;
+    length_ = std::string_view::npos;
     const auto more = lines_->next(mostBytes);
     if (!more) check_.refuse(field_, fmt::format("{}:{}: {}", path_.string(), line(), more.error().message));
     return more.value_or(false);
@@ -75,10 +78,19 @@ std::vector<std::string_view> TableReader::words() const {
 }
 
 std::optional<double> TableReader::number(std::string_view word, std::string_view name) {
+    const bool plus = word.starts_with('+') && !word.starts_with("+-");
+    const std::string_view digits = word.substr(plus ? 1 : 0);
+    const char* const end = digits.data() + digits.size();
     double value = 0;
-    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || rest != word.data() + word.size()) {
+    const auto [rest, error] = std::from_chars(digits.data(), end, value);
+    const bool outOfRange = error == std::errc::result_out_of_range;
+    if (rest != end || (error != std::errc() && !outOfRange)) {
         refuse(word, fmt::format("{} is {}, must be a number", name, shown(word)));
+        return std::nullopt;
+    }
+    if (outOfRange) {
+        if (std::isfinite(std::strtod(std::string(digits).c_str(), nullptr))) return 0;
+        refuse(word, fmt::format("{} is {}, which is too large; must be -1.7e308 to 1.7e308", name, shown(word)));
         return std::nullopt;
     }
     if (std::isfinite(value)) return value;

@@ -23,7 +23,12 @@ class TableReader {
     // if the work is cancelled. Reports the progress.
     bool nextLine(std::size_t mostBytes = longestTableLine);
 
-    [[nodiscard]] std::string_view text() const { return lines_ ? std::string_view(lines_->line()) : ""; }
+    // Ends the line before the first `mark`, if it has one.
+    void cutAt(char mark) { length_ = text().find(mark); }
+
+    [[nodiscard]] std::string_view text() const {
+        return lines_ ? std::string_view(lines_->line()).substr(0, length_) : "";
+    }
     [[nodiscard]] std::size_t line() const { return lines_ ? lines_->number() : 1; }  // from 1
     [[nodiscard]] bool ok() const { return check_.ok(); }                             // nothing was refused
 
@@ -37,7 +42,8 @@ class TableReader {
     [[nodiscard]] std::vector<std::string_view> cells() const;
     [[nodiscard]] std::vector<std::string_view> words() const;
 
-    // Returns the number; refuses a word that is none, and a number that is not finite. `name` begins the refusal.
+    // Returns the number; refuses a word that is none, and a number that is not finite. One that is too small for a
+    // double is 0. `name` begins the refusal.
     std::optional<double> number(std::string_view word, std::string_view name);
     // Returns a whole number from 0 to 2^53; otherwise refuses.
     std::optional<std::uint64_t> whole(std::string_view word, std::string_view name);
@@ -47,6 +53,7 @@ class TableReader {
     std::string field_;
     std::filesystem::path path_;
     std::optional<LineReader> lines_;
+    std::size_t length_ = std::string_view::npos;  // of the line, at most
 };
 
 }  // namespace spherule::scene

@@ -105,10 +105,12 @@ SphereColumns readColumns(TableReader& reader, double scale) {
     return columns;
 }
 
-// Moves to the comment of the frame. Returns its number of spheres.
+// Moves to the comment of the frame. Blank lines may be between two frames. Returns its number of spheres.
 std::optional<std::uint64_t> moveTo(TableReader& reader, std::uint32_t frame) {
     for (std::uint32_t number = 0;; ++number) {
-        if (!reader.nextLine()) {
+        bool more = reader.nextLine();
+        while (more && reader.words().empty()) more = reader.nextLine();
+        if (!more) {
             reader.refuse(1, fmt::format("the file ends before frame {}; the first is 0", frame));
             return std::nullopt;
         }

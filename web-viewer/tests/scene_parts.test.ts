@@ -34,8 +34,38 @@ test("parts are shown as scene files have them, and are sent as they are shown",
     { a: "steel", b: "cork", friction: 0.5 },
     { name: "floor", colour: "#ff0080", material: "cork", roughness: 0.2, metal: 0 },
   ]);
-  const sent = kinds.map((kind, k) => kind.change(3, shown[k] as JsonObject).case);
+  const sent = kinds.map((kind, k) => kind.change(3, shown[k] as JsonObject, {}).case);
   assert.deepEqual(sent, ["changeField", "changeEmitter", "changeMaterial", "setPair", "changeGroup"]);
+});
+
+test("a change of a group has the changed values alone", () => {
+  const groups = kinds.find(({ id }) => id === "group");
+  assert.ok(groups);
+  const [shown] = groups.parts(known);
+  assert.ok(shown);
+  const sent = (part: JsonObject): unknown => {
+    const { roughness, metal, name, material, colour } = groups.change(3, part, shown).value as Record<string, unknown>;
+    return { roughness, metal, name, material, colour };
+  };
+  const none = { roughness: undefined, metal: undefined, name: undefined, material: undefined, colour: undefined };
+  assert.deepEqual(sent(withValue(shown, ["metal"], 0.5)), { ...none, metal: 0.5 });
+  assert.deepEqual(sent({ ...shown, name: "bed", colour: "" }), { ...none, name: "bed", colour: "" });
+  assert.deepEqual(sent(shown), none);
+  assert.throws(() => groups.change(3, [1], shown));
+});
+
+test("a new pair is one of materials with names", () => {
+  const pairs = kinds.find(({ id }) => id === "pair");
+  assert.ok(pairs);
+  const withMaterials = (...names: string[]): typeof known => ({
+    parts: create(ScenePartsSchema, { materials: names.map((name) => ({ name })) }),
+    facts,
+  });
+  const made = (...names: string[]): JsonObject | undefined => pairs.templates.Pair?.(withMaterials(...names));
+  assert.deepEqual(made("", "steel", "cork", ""), { a: "steel", b: "cork", friction: 0.3 });
+  assert.deepEqual(made("", "cork"), { a: "cork", b: "cork", friction: 0.3 });
+  assert.equal(pairs.missing?.(withMaterials("", "cork")), "");
+  assert.notEqual(pairs.missing(withMaterials("")), "");
 });
 
 test("every template is a part that can be sent", () => {

@@ -65,7 +65,20 @@ TEST_F(SceneCsv, ErrorsHaveLineAndColumn) {
     EXPECT_EQ(refusal("x,y,z\n0.2,0.3,0.4,5\n", radius),
               "balls.csv:2:13: the line must have 3 numbers, as the header has names");
     EXPECT_EQ(refusal("x,y,z\n0.2,,0.4\n", radius), "balls.csv:2:5: y is \"\", must be a number");
-    EXPECT_EQ(refusal("x,y,z\n1e999,0,0\n", radius), "balls.csv:2:1: x is \"1e999\", must be a number");
+    EXPECT_EQ(refusal("x,y,z\n1e999,0,0\n", radius),
+              "balls.csv:2:1: x is \"1e999\", which is too large; must be -1.7e308 to 1.7e308");
+    for (const std::string word : {"+-1", "++1", "+", "1e", "1e999x"})
+        EXPECT_EQ(refusal("x,y,z\n" + word + ",0,0\n", radius),
+                  "balls.csv:2:1: x is \"" + word + "\", must be a number");
+    EXPECT_EQ(refusal("x,y,z\n0,+2e308,0\n", radius),
+              "balls.csv:2:3: y is \"+2e308\", which is too large; must be -1.7e308 to 1.7e308");
+}
+
+TEST_F(SceneCsv, NumbersMayHaveAPlusSignOrBeTiny) {
+    const auto scene = loaded("x,y,z,vx,vy,vz\n+0.2,+3e-1,0.4,1e-330,-1e-999,+1e+1\n", radius);
+    ASSERT_TRUE(scene) << scene.error().text();
+    EXPECT_EQ(scene->spheres.at(0).position, glm::dvec3(0.2, 0.3, 0.4));
+    EXPECT_EQ(scene->spheres[0].velocity, glm::vec3(0, 0, 10));
 }
 
 TEST_F(SceneCsv, ErrorHasTheLineOfASphereOutsideTheBounds) {

@@ -47,7 +47,13 @@ TEST(Emitters, AreRefusedWithTheFieldAndTheReason) {
     EXPECT_EQ(refusalOf(with(R"("total": 0)")), "emitters[0].total: is 0, must be at least 1");
     EXPECT_EQ(refusalOf(with(R"("repeat": 2)")), "emitters[0].repeat: needs a schedule");
     EXPECT_EQ(refusalOf(with(R"("schedule": [{"from": 1, "to": 1}])")),
-              "emitters[0].schedule[0].to: is 1 s, must be above from, 1 s");
+              "emitters[0].schedule[0].to: is 1 s, must be at least 1e-06 s after from, which is 1 s");
+    EXPECT_EQ(refusalOf(with(R"("schedule": [{"from": 1, "to": 1.0000005}])")),
+              "emitters[0].schedule[0].to: is 1.0000005 s, must be at least 1e-06 s after from, which is 1 s");
+    EXPECT_EQ(refusalOf(with(R"("schedule": [{"to": 1e-300}], "repeat": 1e-300)")),
+              "emitters[0].schedule[0].to: is 1e-300, must be 1e-06 to 1000000000 s");
+    EXPECT_EQ(refusalOf(with(R"("schedule": [{"to": 1}], "repeat": 1e-300)")),
+              "emitters[0].repeat: is 1e-300 s, must be 0 or at least 1e-06 s");
     EXPECT_EQ(refusalOf(with(R"("schedule": [{"to": 2}, {"from": 1, "to": 3}])")),
               "emitters[0].schedule[1].from: is 1 s, but the time before it ends at 2 s; give them in order");
     EXPECT_EQ(refusalOf(with(R"("schedule": [{"to": 2}], "repeat": 1)")),
@@ -128,6 +134,12 @@ TEST(Emitters, WorkAsTheirScheduleSays) {
     EXPECT_EQ(again.workedUntil(2), 1);
     EXPECT_EQ(again.workedUntil(300), 100);
     EXPECT_EQ(again.timeAfter(1.25), 3.25);
+}
+
+// The longest time with the shortest schedule.
+TEST(Emitters, CountAllRepetitionsOfTheirSchedule) {
+    const Emitter shortest = made(with(R"("begin": -1e9, "schedule": [{"to": 1e-6}], "repeat": 2e-6)"));
+    EXPECT_NEAR(shortest.workedUntil(1e9), 1e9, 1);
 }
 
 // timeAfter() is the inverse of workedUntil().

@@ -31,7 +31,7 @@ const std::vector<std::string>& examples() {
             "emitters": [{"sphere": {"centre": [0,0,0], "radius": 1}, "rate": 1, "total": 1,
                  "radius": {"logNormal": {"median": 0.1, "deviation": 0.1, "min": 0.05, "max": 0.15}}},
                 {"disc": {"centre": [0,0,0], "normal": [0,0,1], "radius": 1}, "massFlow": 1,
-                 "schedule": [{"from": 1, "to": 2}], "repeat": 3,
+                 "schedule": [{"to": 2}], "repeat": 3,
                  "radius": {"table": {"radii": [0.1, 0.2], "shares": [0, 1]}}}]})",
         R"({"bounds": {"min": [-9,-9,-9], "max": [9,9,9]}, "quality": {"auto": {"overlap": 0.1}}, "obstacles": [
             {"plane": {"point": [0,0,-8], "normal": [0,0,1]}},

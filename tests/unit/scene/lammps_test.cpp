@@ -133,6 +133,17 @@ TEST(SceneLammps, GroupGivesValuesThatTheFileLacks) {
     EXPECT_EQ(file.spheres(dataHeader(0, "atomic"), "", radius).size(), 0U);
 }
 
+TEST(SceneLammps, RowsMayHaveComments) {
+    const std::string rows =
+        "1 1 4 2500 1 2 3 # first one\n2 1 4 2500 4 5 6#\n\nVelocities # x\n\n1 1 0 0 0 0 0 # a b\n2 2 0 0 0 0 0\n";
+    const auto spheres = file.spheres(dataHeader(2, "sphere") + rows);
+    ASSERT_EQ(spheres.size(), 2U);
+    EXPECT_EQ(spheres[0].position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(spheres[1].velocity, glm::vec3(2, 0, 0));
+    const auto flags = file.spheres(dataHeader(1, "atomic") + "# id type x y z\n1 1 7 8 9 0 0 0 # c\n", "", radius);
+    EXPECT_EQ(flags.at(0).position, glm::dvec3(7, 8, 9));
+}
+
 TEST(SceneLammps, ErrorsInDataFilesHaveLineAndColumn) {
     const auto refusal = [](const std::string& text) { return file.refusal(text, "", radius); };
     const std::string sphere = dataHeader(2, "sphere");
@@ -141,6 +152,10 @@ TEST(SceneLammps, ErrorsInDataFilesHaveLineAndColumn) {
     EXPECT_EQ(refusal("title\n2 atoms\n\nAtoms\n\n"),
               "bed.lmp:4:1: the section Atoms does not name its atom style; write \"Atoms # sphere\" or \"Atoms # "
               "atomic\"");
+    for (const std::string line : {"Atoms x #", "Atoms sphere x", "Atoms #", "Atoms #  \t"})
+        EXPECT_EQ(refusal("title\n2 atoms\n\n" + line + "\n\n"),
+                  "bed.lmp:4:1: the section Atoms does not name its atom style; write \"Atoms # sphere\" or \"Atoms # "
+                  "atomic\"");
     EXPECT_EQ(refusal(dataHeader(1, "hybrid sphere charge")),
               "bed.lmp:12:9: the atom style is \"hybrid sphere charge\", must be sphere or atomic; write the data file "
               "with one of them");

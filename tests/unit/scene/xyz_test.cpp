@@ -65,6 +65,13 @@ TEST(SceneXyz, FrameIsChosen) {
               "balls.xyz:4:1: the file ends after 1 of 3 atoms of frame 0");
 }
 
+TEST(SceneXyz, BlankLinesMayBeBetweenFrames) {
+    const std::string text = "1\n\nX 1 1 1\n\n \t\n1\n\nX 2 2 2\n\n";
+    EXPECT_EQ(file.spheres(text, R"(, "frame": 1)", group).at(0).position.x, 2);
+    EXPECT_EQ(file.refusal(text, R"(, "frame": 2)", group),
+              "balls.xyz:10:1: the file ends before frame 2; the first is 0");
+}
+
 // Random spheres, written with random names and orders of the columns, are read back.
 TEST(SceneXyz, ReadsWhatIsWritten) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {

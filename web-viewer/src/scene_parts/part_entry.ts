@@ -7,7 +7,7 @@ import { numbersOf, problemOf, withValue } from "./part_values";
 
 /** Sends a part, or asks to remove it. Errors of the JSON are thrown. */
 export interface PartActions {
-  change(number: number, part: JsonValue): Promise<Outcome>;
+  change(number: number, part: JsonValue, shown: JsonObject): Promise<Outcome>;
   remove(number: number, part: JsonObject): Promise<Outcome>;
 }
 
@@ -70,13 +70,13 @@ export class PartEntry {
       const value = text ? input.value : numbersOf(input.value, Array.isArray(present));
       if (value === undefined)
         return this.tell(`${label}: give ${Array.isArray(present) ? "three numbers" : "a number"}.`);
-      void this.send(() => this.actions.change(this.number, withValue(this.part, path, value)));
+      void this.send(() => this.actions.change(this.number, withValue(this.part, path, value), this.part));
     });
     return [h("div", { class: "control" }, h("label", { for: id }, label), input)];
   }
 
   private applyText(): Promise<void> {
-    return this.send(() => this.actions.change(this.number, JSON.parse(this.text.value) as JsonValue));
+    return this.send(() => this.actions.change(this.number, JSON.parse(this.text.value) as JsonValue, this.part));
   }
 
   private remove(): Promise<void> {

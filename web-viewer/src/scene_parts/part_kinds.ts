@@ -7,6 +7,7 @@ import { EmitterSchema } from "../gen/spherule/v1/emitter_pb";
 import { FieldSchema } from "../gen/spherule/v1/fields_pb";
 import { MaterialPairSchema, MaterialSchema } from "../gen/spherule/v1/scene_pb";
 import type { Facts } from "../model/facts";
+import { changesOf } from "./part_values";
 
 /** A value of a part with an entry of its own: numbers, or a text. `path`: in the JSON of the part. */
 export interface Value {
@@ -30,8 +31,11 @@ export interface PartKind {
   parts(known: Known): JsonObject[];
   name(part: JsonObject): string;
   templates: Record<string, (known: Known) => JsonObject>;
+  /** Why there is no part for the templates; empty if there is. */
+  missing?(known: Known): string;
   add?(part: JsonValue): CommandKind;
-  change(number: number, part: JsonValue): CommandKind;
+  /** `shown`: the part as the user saw it before the change. */
+  change(number: number, part: JsonValue, shown: JsonObject): CommandKind;
   remove(number: number, part: JsonObject): CommandKind;
 }
 
@@ -167,6 +171,8 @@ const materials: PartKind = {
   remove: (number) => ({ case: "removeMaterial", value: { number } }),
 };
 
+const namesOf = (parts: { name: string }[]): string[] => parts.map(({ name }) => name).filter(Boolean);
+
 const pair = (part: JsonValue): CommandKind => ({
   case: "setPair",
   value: { pair: fromJson(MaterialPairSchema, part) },
@@ -183,12 +189,12 @@ const pairs: PartKind = {
   parts: ({ parts }) => parts.pairs.map((one) => toJson(MaterialPairSchema, one) as JsonObject),
   name: ({ a, b }) => `${a as string} and ${b as string}`,
   templates: {
-    Pair: ({ parts: { materials: all } }) => ({
-      a: all.at(0)?.name ?? "",
-      b: all.at(-1)?.name ?? "",
-      friction: 0.3,
-    }),
+    Pair: ({ parts }) => {
+      const names = namesOf(parts.materials);
+      return { a: names.at(0) ?? "", b: names.at(-1) ?? "", friction: 0.3 };
+    },
   },
+  missing: ({ parts }) => (namesOf(parts.materials).length > 0 ? "" : "No material has a name: give one a name first."),
   add: pair,
   change: (_, part) => pair(part),
   remove: (_, { a = "", b = "" }) => pair({ a, b }),
@@ -223,9 +229,10 @@ const groups: PartKind = {
     })),
   name: (part) => part.name as string,
   templates: {},
-  change: (number, part) => ({
+  // Values that are not sent stay as they are, also those that another user changes meanwhile.
+  change: (number, part, shown) => ({
     case: "changeGroup",
-    value: { ...fromJson(ChangeGroupSchema, part), number },
+    value: { ...fromJson(ChangeGroupSchema, changesOf(part, shown)), number },
   }),
   remove: (number) => ({ case: "removeGroup", value: { number } }),
 };

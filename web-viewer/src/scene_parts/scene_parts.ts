@@ -16,6 +16,8 @@ const most = 40; // parts with an entry
 class PartList {
   readonly element: HTMLElement;
   private readonly list = h("div", { class: "entries" });
+  private readonly pick = h("span", { class: "pick" });
+  private readonly select = h("select");
   private readonly problem: HTMLElement;
   private readonly more = h("p", { class: "note", hidden: true });
   private entries: PartEntry[] = [];
@@ -32,14 +34,17 @@ class PartList {
     if (add) {
       const names = Object.keys(templates);
       const options = ["Add…", ...names].map((name) => h("option", {}, name));
-      const label = `Add: ${kind.title.toLowerCase()}`;
-      const select = h("select", { "data-testid": `${kind.id}-add`, "aria-label": label }, ...options);
+      const { select } = this;
+      select.dataset.testid = `${kind.id}-add`;
+      select.setAttribute("aria-label", `Add: ${kind.title.toLowerCase()}`);
+      select.append(...options);
       select.addEventListener("change", () => {
         const template = templates[names[select.selectedIndex - 1] ?? ""];
         select.selectedIndex = 0;
         if (template && this.known) void this.add(add(template(this.known)));
       });
-      heading.append(h("span", { class: "pick" }, select));
+      this.pick.append(select);
+      heading.append(this.pick);
     }
     const attributes = { "aria-labelledby": title.id, "data-testid": `${kind.id}-list` };
     this.element = h("section", attributes, heading, this.problem, this.list, this.more);
@@ -47,6 +52,9 @@ class PartList {
 
   show(known: Known): void {
     this.known = known;
+    const missing = this.kind.missing?.(known) ?? "";
+    this.select.disabled = missing !== "";
+    this.pick.title = missing;
     const parts = this.kind.parts(known);
     while (this.entries.length < Math.min(parts.length, most)) this.entries.push(this.entryOf(this.entries.length));
     for (const { element } of this.entries.splice(parts.length)) element.remove();
@@ -58,7 +66,7 @@ class PartList {
   private entryOf(place: number): PartEntry {
     const { kind, commands } = this;
     const entry = new PartEntry(kind, place, {
-      change: (number, part) => commands.change(kind.one, kind.change(number, part)),
+      change: (number, part, shown) => commands.change(kind.one, kind.change(number, part, shown)),
       remove: (number, part) => commands.change(kind.one, kind.remove(number, part)),
     });
     this.list.append(entry.element);
