@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Prints the largest packed fractions, for docs/accuracy.md: packing.py BINARY [--spheres N,...] [--seeds N]
+"""Prints the largest packed fractions, for docs/accuracy.md: packing.py BINARY [--spheres N,...] [--seeds N] [--within F]
 
 For each mixture, with walls and in a periodic cell, it halves the interval of fractions between one that is packed and
-one that is refused, down to 0.002. It prints the mean of the seeds, the time of the largest fraction that was packed,
+one that is refused. It prints the mean of the seeds, the time of the largest fraction that was packed,
 and of a fraction 0.02 below, and the largest overlap of the loaded scene as a share of the radius."""
 import argparse
 import json
@@ -64,9 +64,9 @@ def packed(binary, folder, one):
     return seconds
 
 
-def largest(binary, folder, radius, spheres, periodic, seed):
-    low, high = 0.4, 0.72
-    while high - low > 0.002:
+def largest(binary, folder, radius, spheres, periodic, seed, within):
+    low, high = 0.48, 0.70
+    while high - low > within:
         middle = (low + high) / 2
         if packed(binary, folder, scene(radius, spheres, middle, periodic, seed)):
             low = middle
@@ -90,12 +90,13 @@ def main():
     parser.add_argument("binary")
     parser.add_argument("--spheres", default="1000,10000,100000")
     parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--within", type=float, default=0.002, help="of the fraction")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         for name, radius in MIXTURES.items():
             for spheres in map(int, options.spheres.split(",")):
                 for periodic in (False, True):
-                    reached = [largest(options.binary, folder, radius, spheres, periodic, seed)
+                    reached = [largest(options.binary, folder, radius, spheres, periodic, seed, options.within)
                                for seed in range(1, options.seeds + 1)]
                     fraction = statistics.mean(reached)
                     limit = packed(options.binary, folder, scene(radius, spheres, reached[0], periodic, 1))

@@ -15,7 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     auto message = scene::parseJson(text, "fuzz.json");
     if (!message) return 0;
     for (v1::Group& group : *message->mutable_groups()) {
-        if (group.has_fill() && group.fill().count() > mostSpheres) group.mutable_fill()->set_count(mostSpheres);
+        if (group.has_fill() && (group.fill().has_fraction() || group.fill().count() > mostSpheres))
+            group.mutable_fill()->set_count(mostSpheres);
         if (group.has_lattice() && (!group.lattice().has_count() || group.lattice().count() > mostSpheres))
             group.mutable_lattice()->set_count(mostSpheres);
     }
