@@ -12,7 +12,9 @@
 #include "client/command_parser.h"
 #include "host/from_proto.h"
 #include "net/command_rules.h"
+#include "scene/group.h"
 #include "scene/load.h"
+#include "scene/part_changes.h"
 
 namespace spherule::cli {
 
@@ -73,25 +75,130 @@ Result<sim::Command> commandOf(const std::string& where, const v1::Command& mess
                                     name));
 }
 
-Result<void> checkId(const std::string& where, std::string_view does, std::uint64_t id, const scene::Scene& scene) {
-    if (id < scene.spheres.size()) return {};
-    return wrong(where, fmt::format("{} sphere {}, but the scene has {} spheres by then, from 0 on", does, id,
-                                    scene.spheres.size()));
-}
+// The scene after the commands of a script, as far as it can be known before a run. Refuses a command that is certain
+// to fail.
+class Forecast {
+  public:
+    explicit Forecast(const scene::Scene& begin) : scene_(begin) { noticeEmitters(); }
 
-Result<void> checkRemove(const std::string& where, const sim::Remove& remove, const scene::Scene& scene) {
-    for (const std::uint64_t id : remove.spheres)
-        if (auto right = checkId(where, "removes", id, scene); !right) return right;
+    // `name`: of the command. `time`: s simulated. `spawn`: the message, if it is one.
+    Result<void> take(const sim::Command& command, const std::string& name, double time, const v1::Spawn& spawn);
+
+  private:
+    Result<void> set(const sim::Set& set);
+    Result<void> spawn(const v1::Spawn& message);
+    Result<void> remove(const sim::Remove& remove);
+    [[nodiscard]] Result<void> push(const sim::Push& push) const;
+    void changeObstacle(const sim::ChangeObstacle& change);
+    Result<void> changePart(const sim::ChangePart& change, bool ofGroup);
+    Result<void> removeGroup(const sim::RemoveGroup& remove);
+    void noticeEmitters();
+    [[nodiscard]] Result<void> checkId(const char* does, std::uint64_t id) const;
+
+    scene::Scene scene_;
+    std::optional<std::uint64_t> known_;  // spheres before the first emitter; nullopt: there is none
+    bool groupsKnown_ = true;             // their numbers, and which of them have spheres
+    bool ended_ = false;                  // the commands that follow cannot be checked
+};
+
+Result<void> Forecast::take(const sim::Command& command, const std::string& name, double time,
+                            const v1::Spawn& message) {
+    if (ended_) return {};
+    scene_.time = time;
+    if (name == "spawn") return spawn(message);
+    if (const auto* const one = std::get_if<sim::Set>(&command)) return set(*one);
+    if (const auto* const one = std::get_if<sim::Remove>(&command)) return remove(*one);
+    if (const auto* const one = std::get_if<sim::Push>(&command)) return push(*one);
+    if (const auto* const one = std::get_if<sim::ChangePart>(&command)) return changePart(*one, name == "change_group");
+    if (const auto* const one = std::get_if<sim::RemoveGroup>(&command)) return removeGroup(*one);
+    if (const auto* const one = std::get_if<sim::ChangeObstacle>(&command)) changeObstacle(*one);
     return {};
 }
 
-// Refuses a push of a sphere that does not exist, or that is fixed. `scene` has every sphere that was born by then.
-Result<void> checkPush(const std::string& where, const sim::Push& push, const scene::Scene& scene) {
+Result<void> Forecast::set(const sim::Set& set) {
+    auto changed = sim::changedBy(set, std::move(scene_));
+    if (!changed) return tl::unexpected(changed.error());
+    scene_ = std::move(*changed);
+    return {};
+}
+
+// Emitters and sinks change the spheres and the groups at times that only a run shows.
+void Forecast::noticeEmitters() {
+    if (!scene_.emitters.empty() && !known_) known_ = scene_.spheres.size();
+    if (!scene_.emitters.empty() || !scene_.sinks.empty()) groupsKnown_ = false;
+}
+
+Result<void> Forecast::spawn(const v1::Spawn& message) {
+    // Present places do not count: spheres may have moved away by then.
+    scene::Scene empty = scene_;
+    empty.spheres.clear();
+    if (empty.groups.size() >= scene::maxGroups) scene::removeEmptyGroups(empty);
+    const auto added = scene::buildGroup(message.group(), empty);
+    if (!added) return tl::unexpected(added.error());
+    if (scene_.groups.size() >= scene::maxGroups) scene::removeEmptyGroups(scene_);
+    const sim::Spawn made = host::spawnOf(message);
+    scene_.groups.push_back(scene::groupOf(*added, made.name, made.look));
+    scene_.spheres.insert(scene_.spheres.end(), added->begin(), added->end());
+    return {};
+}
+
+// The id of a sphere is its number among all spheres there ever were.
+Result<void> Forecast::checkId(const char* does, std::uint64_t id) const {
+    if (known_ || id < scene_.spheres.size()) return {};
+    return fail(
+        ErrorKind::Refused, "",
+        fmt::format("{} sphere {}, but the scene has {} spheres by then, from 0 on", does, id, scene_.spheres.size()));
+}
+
+Result<void> Forecast::remove(const sim::Remove& remove) {
+    groupsKnown_ = false;
+    for (const std::uint64_t id : remove.spheres)
+        if (auto right = checkId("removes", id); !right) return right;
+    return {};
+}
+
+// Refuses a push of a sphere that does not exist, or that is fixed. Nothing is known of spheres that come after the
+// first emitter.
+Result<void> Forecast::push(const sim::Push& push) const {
     const auto* const id = std::get_if<std::uint64_t>(&push.target);
     if (id == nullptr) return {};
-    if (auto right = checkId(where, "pushes", *id, scene); !right) return right;
-    if (scene.spheres[*id].fixed) return wrong(where, fmt::format("pushes sphere {}, which is fixed", *id));
+    if (auto right = checkId("pushes", *id); !right) return right;
+    if (*id < known_.value_or(scene_.spheres.size()) && scene_.spheres[*id].fixed)
+        return fail(ErrorKind::Refused, "", fmt::format("pushes sphere {}, which is fixed", *id));
     return {};
+}
+
+// The run refuses an obstacle that cannot be there, which may depend on its motion until then.
+void Forecast::changeObstacle(const sim::ChangeObstacle& change) {
+    const std::size_t number = change.obstacle.value_or(static_cast<std::uint32_t>(scene_.obstacles.size()));
+    ended_ = change.obstacle && number >= scene_.obstacles.size();
+    if (ended_) return;
+    auto made = change.make(scene_);
+    ended_ = !made;
+    if (ended_) return;
+    const auto place = scene_.obstacles.begin() + static_cast<std::ptrdiff_t>(number);
+    if (!*made)
+        scene_.obstacles.erase(place);
+    else if (change.obstacle)
+        *place = std::move(**made);
+    else
+        scene_.obstacles.push_back(std::move(**made));
+}
+
+Result<void> Forecast::changePart(const sim::ChangePart& change, bool ofGroup) {
+    if (ofGroup && !groupsKnown_) return {};
+    const auto made = change.make(scene_);
+    if (!made) {
+        ended_ = true;
+        return groupsKnown_ ? Result<void>(tl::unexpected(made.error())) : Result<void>();
+    }
+    noticeEmitters();
+    return {};
+}
+
+Result<void> Forecast::removeGroup(const sim::RemoveGroup& remove) {
+    const bool known = std::exchange(groupsKnown_, false);
+    return known ? scene::checkNumber(remove.number, scene_.groups.size(), "groups") : Result<void>();
 }
 
 // Returns the first step of `length` seconds that begins at `time` or after it. Times are sums of steps, with rounding.
@@ -147,27 +254,15 @@ Result<Script> Script::read(const std::string& path) {
 Result<void> Script::check(const scene::Scene& scene, double duration) const {
     if (lines_.empty()) return {};
     const auto steps = static_cast<std::uint64_t>(std::llround(duration / scene.step));
-    scene::Scene then = scene;
+    Forecast then(scene);
     for (const Line& line : lines_) {
-        if (stepAt(line.time, scene.step) >= steps)
+        const std::uint64_t step = stepAt(line.time, scene.step);
+        if (step >= steps)
             return wrong(line.where, fmt::format("comes at {:g} s, when no step follows; --for ends the run at {:g} s",
                                                  line.time, duration));
-        if (const auto* const set = std::get_if<sim::Set>(&line.command)) {
-            auto changed = sim::changedBy(*set, std::move(then));
-            if (!changed) return wrong(line.where, line.name, changed.error());
-            then = std::move(*changed);
-        } else if (line.name == "spawn") {
-            // Present places do not count: spheres may have moved away by then.
-            scene::Scene empty = then;
-            empty.spheres.clear();
-            const auto added = scene::buildGroup(line.spawn.group(), empty);
-            if (!added) return wrong(line.where, line.name, added.error());
-            then.spheres.insert(then.spheres.end(), added->begin(), added->end());
-        } else if (const auto* const remove = std::get_if<sim::Remove>(&line.command)) {
-            if (auto fits = checkRemove(line.where, *remove, then); !fits) return fits;
-        } else if (const auto* const push = std::get_if<sim::Push>(&line.command)) {
-            if (auto fits = checkPush(line.where, *push, then); !fits) return fits;
-        }
+        const double time = static_cast<double>(step) * scene.step;
+        if (const auto fits = then.take(line.command, line.name, time, line.spawn); !fits)
+            return wrong(line.where, line.name, fits.error());
     }
     return {};
 }

@@ -13,15 +13,17 @@
 namespace spherule::cli {
 
 // Timed commands for `spherule run`. A line of the file has a time, such as 1.5s, and a command in the words of
-// `spherule ctl`: set, spawn or push. A word that begins with { is JSON and reaches to the end of the line. Lines that
-// are empty or begin with # are skipped. Times do not decrease from line to line. Errors have the file and the line.
+// `spherule ctl`. Allowed are set, spawn, remove, push, and changes of parts of the scene. A word that begins with { is
+// JSON and reaches to the end of the line. Lines that are empty or begin with # are skipped. Times do not decrease from
+// line to line. Errors have the file and the line.
 class Script {
   public:
     // Input if a line is wrong.
     static Result<Script> read(const std::string& path);
 
-    // Refuses a command that is certain to fail in a run of `duration` seconds that begins with `scene`. A setting or a
-    // group is out of range, a sphere does not exist, or no step follows.
+    // Refuses a command that is certain to fail in a run of `duration` seconds that begins with `scene`. A setting, a
+    // part of the scene or a group is wrong, a sphere does not exist, or no step follows. Other commands fail in the
+    // run: those about spheres of emitters, and obstacles that spheres are in the way of.
     [[nodiscard]] Result<void> check(const scene::Scene& scene, double duration) const;
 
     // Carries out the commands that are due at the present step: those whose time is not after it. Returns true if

@@ -150,9 +150,13 @@ Result<void> CommandExecutor::cancel() {
 }
 
 void CommandExecutor::refuse(const Request& request, const std::string& reason, Cause cause) {
-    // Nothing else would end the pull of a session that has ended.
-    if (!request.answered) return host_.simulation().release(request.session);
-    publisher_.reply(request.session, resultOf(request.command, fail(ErrorKind::Refused, "", reason, cause)));
+    const auto refused = fail(ErrorKind::Refused, "", reason, cause);
+    if (request.answered)
+        publisher_.reply(request.session, resultOf(request.command, refused));
+    else if (request.command.has_load())
+        effects_.reloaded(refused);
+    else
+        host_.simulation().release(request.session);  // nothing else would end the pull of a session that has ended
 }
 
 // Refuses the change under way and the commands that wait for its end.

@@ -1,14 +1,16 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <ctime>
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "host/from_proto.h"
+#include "scene/load.h"
 
 namespace spherule::host {
 
@@ -16,13 +18,29 @@ namespace spherule::host {
 // inodes, so that it also sees editors that replace a file by another one.
 class SceneWatch {
   public:
-    // `period`: between two looks.
-    explicit SceneWatch(std::string path, std::chrono::milliseconds period = std::chrono::milliseconds(500));
+    // Returns the paths of the files that a scene's file names.
+    using FilesNamed = std::function<Result<std::vector<std::string>>(const std::string& path)>;
 
-    // Returns true once after a file has changed, and has then stayed the same for a period. Any thread.
-    bool takeChange() { return changed_.exchange(false); }
+    // `period`: between two looks. `named`: called by the thread, and before it begins.
+    explicit SceneWatch(std::string path, std::chrono::milliseconds period = std::chrono::milliseconds(500),
+                        FilesNamed named = scene::filesNamedIn);
+
+    // Paths of files.
+    struct Change {
+        std::vector<std::string> saved;
+        std::vector<std::string> gone;  // removed, or renamed
+    };
+    // Returns the changes since the last call, once they have stayed the same for a period; nullopt if there are none.
+    // Any thread.
+    std::optional<Change> takeChange();
     // Returns the function that loads the file. An error lists the structural mistakes with their places.
     [[nodiscard]] MakeScene load(const std::string& deviceKind, const scene::Overrides& overrides) const;
+
+    // Returns the file whose save is a reason to load the scene; nullopt: it must not be loaded.
+    [[nodiscard]] std::optional<std::string> savedToLoad(const Change& change) const;
+    // For users: a file is gone; the scene is not loaded after this file was saved.
+    [[nodiscard]] std::string goneText(const std::string& file) const;
+    [[nodiscard]] std::string failureText(const std::string& saved, const Error& error) const;
 
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::string name() const;  // of the file
@@ -37,15 +55,19 @@ class SceneWatch {
         bool operator==(const Seen&) const = default;
     };
     void findFiles();
+    void lookForChanges(std::vector<Seen>& last);
+    void report(const Change& change);
     [[nodiscard]] static Seen lookAt(const std::string& file);
     [[nodiscard]] std::vector<Seen> look() const;
     void watch(const std::stop_token& stop, std::chrono::milliseconds period);
 
     std::string path_;
+    FilesNamed named_;
     std::vector<std::string> files_;  // the scene's first
-    std::vector<Seen> before_;        // when the scene was last reported, or at the beginning
-    std::atomic<bool> changed_ = false;
-    std::jthread thread_;  // last member: joined before the members that it uses are destroyed
+    std::vector<Seen> before_;        // when a change was last reported, or at the beginning
+    std::mutex mutex_;                // of change_
+    std::optional<Change> change_;    // not taken yet
+    std::jthread thread_;             // last member: joined before the members that it uses are destroyed
 };
 
 }  // namespace spherule::host

@@ -80,10 +80,15 @@ Result<void> SimulationProducer::simulate(const std::stop_token& stop) {
     return done;
 }
 
-// Loads the scene again when its file, or a file that it names, has been saved.
+// Loads the scene again when its file, or a file that it names, has been saved. Tells when one is gone.
 void SimulationProducer::reloadWhenSaved() {
-    if (!watch_ || host_.changing() || !watch_->takeChange()) return;
-    spdlog::info("{} has been saved: loading it again", watch_->path());
+    const auto change = watch_ && !host_.changing() ? watch_->takeChange() : std::nullopt;
+    if (!change) return;
+    for (const std::string& file : change->gone) notify(v1::Event::WARNING, watch_->goneText(file));
+    const auto saved = watch_->savedToLoad(*change);
+    if (!saved) return;
+    spdlog::info("{} has been saved: loading {}", *saved, watch_->path());
+    saved_ = *saved;
     commands_.reload(watch_->name(), watch_->load(host_.device().info().kind, host_.overrides()));
 }
 
@@ -91,8 +96,7 @@ void SimulationProducer::reloaded(const Result<sim::Applied>& done) {
     if (done)
         spdlog::info("{} is loaded", watch_->path());
     else
-        notify(v1::Event::WARNING, fmt::format("{} was saved but is not loaded, the world stays as it is. {}",
-                                               watch_->name(), done.error().text()));
+        notify(v1::Event::WARNING, watch_->failureText(saved_, done.error()));
 }
 
 // Does a part of the step under way and of the change under way. Returns false when there is neither.

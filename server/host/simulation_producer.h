@@ -72,6 +72,7 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     net::Publisher& publisher_;
     SceneSaver& saver_;
     std::unique_ptr<SceneWatch> watch_;
+    std::string saved_;  // the file for which the watched scene was loaded last
     recording::LiveRecorder recorder_;
     StateStreams streams_;
     RateMeter frameRate_;

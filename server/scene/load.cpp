@@ -26,8 +26,7 @@ std::string placeOf(const std::string& text, const std::string& source, std::siz
     return fmt::format("{}{}{}{}", source, lineAndColumn(text, offset), path.empty() ? "" : ": ", path);
 }
 
-Result<std::string> readText(const std::string& source) {
-    const heartbeat::Pause reading;
+Result<std::string> readUnpaused(const std::string& source) {
     auto text = readFile(source, longestFile);
     if (!text) return text;
     dropByteOrderMark(*text);
@@ -37,6 +36,11 @@ Result<std::string> readText(const std::string& source) {
                                 "lattice or fill",
                                 objects, mostObjects));
     return text;
+}
+
+Result<std::string> readText(const std::string& source) {
+    const heartbeat::Pause reading;
+    return readUnpaused(source);
 }
 
 std::vector<Error> structuralErrors(const std::string& text, const std::string& source) {
@@ -118,11 +122,11 @@ std::vector<Error> structuralMistakesOf(const std::string& path) {
     return structuralErrors(*text, path);
 }
 
-std::vector<std::string> filesNamedIn(const std::string& path) {
-    const auto text = readText(path);
-    if (!text) return {};
+Result<std::vector<std::string>> filesNamedIn(const std::string& path) {
+    const auto text = readUnpaused(path);
+    if (!text) return tl::unexpected(text.error());
     const auto message = parseJson(*text, path);
-    if (!message) return {};
+    if (!message) return tl::unexpected(message.error());
     std::vector<std::string> files;
     addFiles(*message, files);
     for (std::string& file : files) file = (std::filesystem::path(path).parent_path() / file).string();

@@ -48,8 +48,9 @@ std::vector<Error> structuralMistakesOf(const std::string& path);
 // Returns true if load() takes it for a path.
 bool isPath(std::string_view source);
 
-// Returns the paths of the files that the scene's file names. Empty if it cannot be read.
-std::vector<std::string> filesNamedIn(const std::string& path);
+// Returns the paths of the files that the scene's file names. Does not pause the watchdog, unlike load(): for threads
+// that it does not watch.
+Result<std::vector<std::string>> filesNamedIn(const std::string& path);
 
 // An inline scene, as a client sends it: may not name files. Errors carry the field path.
 Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {}, Progress* progress = nullptr);

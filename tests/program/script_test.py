@@ -85,6 +85,31 @@ class Script(FolderTestCase):
         done = call("run", "cradle", "--for", "1s", "--script", self.at("missing"), "--device", "cpu")
         self.assertIn("missing: cannot be read: give a file with a line for each command to --script", done.stderr)
 
+    def test_lines_are_checked_against_the_scene_of_their_time(self):
+        cork = SPAWN.replace('{"list"', '{"material": "cork", "list"')
+        lines = ('0.1 add_material {"name": "cork", "density": 240}', "0.2 spawn " + cork,
+                 '0.3 change_group 2 {"name": "corks", "material": "cork"}')
+        self.assertEqual(self.run_with("cradle", "1s", *lines)["spheres"], 6)
+        for line, reason in {"0.2 spawn " + cork: ":1: spawn.group.material: is \"cork\", which is no material",
+                             '0.2 add_field {"drag": {"density": -1}}': ":1: add_field.field.drag.density: is -1",
+                             '0.2 change_group 3 {"name": "none"}': ":1: change_group.number: is 3, must be 0 to",
+                             "0.2 remove_group 3": ":1: remove_group.number: is 3, must be 0 to"}.items():
+            said = self.refusal(line, *lines[2:])
+            self.assertTrue(said.startswith(reason), said)
+
+    def test_obstacles_have_changed_by_then(self):
+        block = '{"box": {"min": [-0.2, 0.1, 0.3], "max": [0.2, 0.3, 0.5]}}'
+        lines = ("0.1 add_obstacle " + block, "0.2 remove_obstacle 0", "0.3 spawn " + SPAWN)
+        self.assertEqual(self.run_with("cradle", "1s", *lines)["spheres"], 6)
+        self.assertTrue(self.refusal(lines[0], lines[2]).startswith(":2: spawn.group"), self.refusal(lines[0], lines[2]))
+
+    def test_spheres_of_emitters_may_be_pushed_and_removed(self):
+        drip = ('{"name": "drip", "box": {"min": [-0.1, 0.2, 0.4], "max": [0.1, 0.3, 0.5]}, "rate": 50,'
+                ' "radius": {"constant": 0.01}}')
+        lines = ("0.1 add_emitter " + drip, "0.5 push 6 0 0 1e-6", "0.5 remove 5")
+        self.assertGreater(self.run_with("cradle", "1s", *lines)["spheres"], 6)
+        self.assertIn("is 1000, the scene has", self.refusal(*lines[:1], "0.5 push 1000 0 0 1"))
+
     def test_a_command_that_is_refused_on_the_way_ends_the_run_with_its_place(self):
         self.assertTrue(self.refusal("0.1 push ray 0 0 -5 0 0 -1 0 0 1").startswith(":1: push.ray: meets no sphere"))
 

@@ -64,6 +64,8 @@ class Watch(FolderTestCase):
             # No file at all for a while.
             os.remove(self.path)
             viewer.wait(lambda one: len(one.of("event")) == 3)
+            self.assertEqual(viewer.of("event")[-1]["text"],
+                             "scene.json is gone. The world goes on as it is. Save the file again to load it.")
             self.write("scene.json", json.dumps(scene("second")))
             viewer.wait(lambda one: self.names(one)[-1] == "second")
             server.end()
@@ -80,7 +82,12 @@ class Watch(FolderTestCase):
             viewer.wait(lambda one: one.of("scene")[-1].get("count") == 2)
             self.replace("spheres.csv", "x,y,z,radius\n0,0,zero,0.1\n")
             viewer.wait(lambda one: one.of("event"))
-            self.assertIn("spheres.csv:2", viewer.of("event")[-1]["text"])
+            text = viewer.of("event")[-1]["text"]
+            self.assertIn("spheres.csv was saved but scene.json is not loaded, the world stays as it is.", text)
+            self.assertIn("spheres.csv:2", text)
+            os.remove(self.at("spheres.csv"))
+            viewer.wait(lambda one: len(one.of("event")) == 2)
+            self.assertIn("spheres.csv, which scene.json names, is gone.", viewer.of("event")[-1]["text"])
             self.assertEqual(viewer.of("scene")[-1].get("count"), 2)
 
     def test_a_burst_of_writes_is_loaded_once(self):

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <google/protobuf/util/json_util.h>
@@ -23,9 +26,9 @@ using namespace std::chrono_literals;
 // A SimulationProducer without a network. Queues commands of sessions, and keeps the answers in order.
 class TestSessions : private FakePublisher {
   public:
-    explicit TestSessions(const std::string& scene = "two-spheres")
+    explicit TestSessions(const std::string& scene = "two-spheres", std::unique_ptr<SceneWatch> watch = nullptr)
         : producer_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, *this, saver_},
-                    diagnostics::ownTable(), recording::LiveOptions()) {}
+                    diagnostics::ownTable(), recording::LiveOptions(), std::move(watch)) {}
 
     // Queues a command; returns its id, which counts from 1.
     std::uint64_t give(const std::string& json, std::uint64_t session = 1) {
@@ -67,6 +70,7 @@ class TestSessions : private FakePublisher {
         v1::Event event;
     };
     std::vector<Told> told;  // events about commands, for the other sessions
+    std::vector<std::string> warnings;
 
   private:
     void look() {
@@ -74,6 +78,11 @@ class TestSessions : private FakePublisher {
     }
     void retain(codec::SharedMessage message, codec::Audience) override {
         if (message->content().has_change()) changes.push_back(message->content().change());
+        look();
+    }
+    void broadcast(codec::SharedMessage message) override {
+        if (message->content().event().kind() == v1::Event::WARNING)
+            warnings.push_back(message->content().event().text());
         look();
     }
     void announce(net::SessionId by, v1::Event event) override { told.push_back({by, std::move(event)}); }
@@ -247,6 +256,40 @@ TEST(SimulationProducer, OthersAreToldOfCommandsThatChangeTheWorld) {
     EXPECT_EQ(spawned.spheres(), 2U);
     EXPECT_EQ(spawned.command().spawn().group().name(), "new");
     EXPECT_FALSE(spawned.command().spawn().group().has_list()) << "spheres may take megabytes";
+}
+
+// A client ends the load of a saved scene.
+TEST(SimulationProducer, TellsThatASavedSceneIsNotLoaded) {
+    for (const auto& [command, reason] :
+         {std::pair(R"({"cancel":{}})", "cancelled"), {R"({"reset":{}})", "session 9 has asked for reset"}}) {
+        const recording::TemporaryFolder folder;
+        const std::string path = folder / "one.json";
+        recording::writeFile(path, R"({"bounds":{"min":[-1,-1,-1],"max":[1,1,1]}})");
+        TestSessions sessions(path, std::make_unique<SceneWatch>(path, 10ms));
+        recording::writeFile(path, R"({"bounds":{"min":[-1,-1,-1],"max":[1,1,1]},"groups":[{"radius":{"constant":0.01},
+            "fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]})");
+        std::uint64_t given = 0;
+        sessions.run([&, command = command] {
+            if (given == 0 && !sessions.changes.empty()) given = sessions.give(command, 9);
+            return !sessions.warnings.empty() && sessions.answers.size() == given;
+        });
+        EXPECT_EQ(sessions.changes.at(0).what(), "load one.json");
+        EXPECT_TRUE(sessions.answer(given).has_applied());
+        ASSERT_EQ(sessions.warnings.size(), 1U);
+        EXPECT_EQ(sessions.warnings[0],
+                  std::string("one.json was saved but is not loaded: ") + reason + ". Save it again to load it.");
+    }
+}
+
+TEST(SimulationProducer, TellsThatTheWatchedSceneIsGone) {
+    const recording::TemporaryFolder folder;
+    const std::string path = folder / "one.json";
+    recording::writeFile(path, R"({"bounds":{"min":[-1,-1,-1],"max":[1,1,1]}})");
+    TestSessions sessions(path, std::make_unique<SceneWatch>(path, 10ms));
+    std::filesystem::remove(path);
+    sessions.run([&] { return !sessions.warnings.empty(); });
+    EXPECT_EQ(sessions.warnings.at(0), "one.json is gone. The world goes on as it is. Save the file again to load it.");
+    EXPECT_TRUE(sessions.changes.empty());
 }
 
 TEST(SimulationProducer, BroadcastsTheProgressOfALongChange) {

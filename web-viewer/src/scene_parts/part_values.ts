@@ -28,7 +28,7 @@ export function withValue(part: JsonObject, [key = "", ...rest]: string[], value
   return { ...part, [key]: rest.length > 0 ? withValue(part[key] as JsonObject, rest, value) : value };
 }
 
-/** The values of a part that differ from those it was shown with. Of text that is no part: the text, to be refused. */
+/** Returns the values of a part that differ from the shown ones. Returns JSON that is no part as it is. */
 export function changesOf(part: JsonValue, shown: JsonObject): JsonValue {
   if (typeof part !== "object" || part === null || Array.isArray(part)) return part;
   const differs = ([key, value]: [string, JsonValue]): boolean => JSON.stringify(value) !== JSON.stringify(shown[key]);
