@@ -114,8 +114,8 @@ TEST(ResultOf, RefusalsOfTheHostHaveACauseAndLimits) {
         {R"({"push":{"sphere":999,"impulse":[0,0,1]}})", v1::Refused::NO_SUCH_SPHERE, none, none},
         {R"({"push":{"ray":{"origin":[0,0,9],"direction":[0,0,1]},"impulse":[0,0,1]}})", v1::Refused::NO_HIT, none,
          none},
-        {fill + R"([1,1,0.15],"count":1}}}})", v1::Refused::TOO_LARGE, none, 0.075},
-        {fill + R"([1,1,1],"count":1000}}}})", v1::Refused::NO_ROOM, none, 90},
+        {fill + R"([1,0.7,0.15],"count":1}}}})", v1::Refused::TOO_LARGE, none, 0.075},
+        {fill + R"([1,0.7,0.4],"count":1000}}}})", v1::Refused::NO_ROOM, none, 42},
         {R"({"spawn":{"group":{"radius":{"constant":2e6},"fill":{"max":[1,1,1],"count":1}}}})", v1::Refused::RANGE,
          1e-6, 1e6},
     };
