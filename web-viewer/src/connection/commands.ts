@@ -101,7 +101,8 @@ export class Commands {
   }
 
   drop({ min, max, count, radius }: Drop): Promise<Outcome> {
-    const fill = { min, max, count, seed: BigInt(Date.now()) };
+    const amount = { case: "count" as const, value: count };
+    const fill = { min, max, amount, seed: BigInt(Date.now()) };
     const group = {
       name: "dropped",
       source: { case: "fill" as const, value: fill },
