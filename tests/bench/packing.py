@@ -3,7 +3,8 @@
 
 For each mixture, with walls and in a periodic cell, it halves the interval of fractions between one that is packed and
 one that is refused. It prints the mean of the seeds, the time of the largest fraction that was packed,
-and of a fraction 0.02 below, and the largest overlap of the loaded scene as a share of the radius."""
+and of a fraction 0.02 below, and the largest overlap of the loaded scene as a share of the radius. A periodic cell may
+be too small to run: its overlap is nan."""
 import argparse
 import json
 import math
@@ -80,7 +81,9 @@ def overlap(binary, folder, one):
     with open(path, "w", encoding="utf-8") as file:
         json.dump(one, file)
     done = subprocess.run([binary, "run", path, "--for", "0.001s", "--device", "cpu", "--json"], capture_output=True,
-                          text=True, check=True)
+                          text=True)
+    if done.returncode != 0:  # a periodic cell that is too small for the lists of pairs
+        return math.nan, 0
     figures = json.loads(done.stdout.splitlines()[-1])
     return figures["overlapMax"], figures["spheres"]
 
