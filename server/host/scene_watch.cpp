@@ -138,7 +138,7 @@ void SceneWatch::watch(const std::stop_token& stop, std::chrono::milliseconds pe
             failed = false;
         } catch (const std::exception& error) {
             if (!std::exchange(failed, true))
-                spdlog::warn("changes of {} are not seen for now, the server tries again: {}", path_, error.what());
+                spdlog::warn("cannot look whether {} was saved, and looks again: {}", path_, error.what());
         }
     }
 }

@@ -100,11 +100,12 @@ class Filling {
             return refuse(spheres.size(), fmt::format("spheres of these radii jam at about {:.3g}", reachable),
                           reachable);
         if (spheres.size() > mostPacked)
-            return check_.refuse(amount_,
-                                 fmt::format("asks for {} spheres in {:.4g} of the volume of the region; beyond {}, at "
-                                             "most {} are packed",
-                                             spheres.size(), fraction_, jammed, mostPacked),
-                                 Cause::NoRoom);
+            return check_.refuse(
+                amount_,
+                fmt::format("asks for {} spheres in {:.4g} of the volume of the region, and at most {} can be "
+                            "packed; ask for less, or make the region larger",
+                            spheres.size(), fraction_, mostPacked),
+                Cause::NoRoom);
         const PackingSpace space = spaceFor(packed);
         const auto room =
             memory::Claim::make(amount_, fmt::format("{} spheres to pack", packed.size() + space.fixed.size()),

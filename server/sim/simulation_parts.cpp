@@ -75,8 +75,9 @@ bool Simulation::keepsKernels(const scene::Scene& changed) const {
 Result<void> Simulation::checkFinite() {
     const auto counters = pipeline_->read<std::uint32_t>(Array::Counters);
     if (counters[COUNTER_NON_FINITE] == 0) return {};
-    return fail(ErrorKind::Refused, "",
-                "a sphere has no finite position any more; go back to the last good state, then change the scene");
+    return fail(
+        ErrorKind::Refused, "",
+        "a sphere has no finite position any more; change the scene after it has gone back to its last good state");
 }
 
 Result<Simulation::Outcome> Simulation::changePart(const ChangePart& change) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -177,13 +178,13 @@ INSTANTIATE_TEST_SUITE_P(Of, Emitters,
 // An emitter at a height fills a bin up to it, ends, and stays ended while the bed settles.
 TEST(Emitters, FillABinUpToTheirHeight) {
     constexpr double radius = 0.015;
-    for (const double height : {0.12, 0.25}) {
+    for (const auto& [height, seed] : {std::pair(0.12, 1), {0.12, 2}, {0.25, 1}, {0.25, 2}, {0.25, 3}}) {
         auto simulation = simulate(sceneOf(fmt::format(
             R"({{"bounds": {{"min": [0, 0, 0], "max": [0.3, 0.3, 0.5]}}, "materials": [{{"restitution": 0.3}}],
             "sleep": {{"enabled": false}},
             "emitters": [{{"box": {{"min": [0.016, 0.016, {0}], "max": [0.284, 0.284, {0}]}}, "rate": 1000,
-                          "radius": {{"constant": {1}}}, "velocity": [0, 0, -1], "untilChoked": 0.2}}]}})",
-            height, radius)));
+                          "radius": {{"constant": {1}}}, "velocity": [0, 0, -1], "untilChoked": 0.2, "seed": {2}}}]}})",
+            height, radius, seed)));
         for (int tenths = 0; tenths < 60 && !simulation->statistics().emitters[0].ended; ++tenths)
             run(*simulation, 0.1);
         const sim::Statistics ended = simulation->statistics();

@@ -182,7 +182,7 @@ TEST(PartChange, IsRefusedBesideANonFiniteSphere) {
     ASSERT_TRUE(simulation->advance());
     ASSERT_TRUE(simulation->midStep());
     const std::string why =
-        "a sphere has no finite position any more; go back to the last good state, then change the scene";
+        "a sphere has no finite position any more; change the scene after it has gone back to its last good state";
     EXPECT_EQ(refusalOf(*simulation, addField(fields[0])), why);
     EXPECT_EQ(refusalOf(*simulation, change<v1::ChangeGroup>(R"({"number": 0, "name": "g"})")), why);
     EXPECT_EQ(refusalOf(*simulation, sim::RemoveGroup{0}), why);
