@@ -20,7 +20,7 @@ namespace {
 // at the real radii end when they fall below it.
 constexpr double clearance = 1e-3;
 constexpr double skin = 0.3;      // of the radius: how far spheres move before their neighbours are found again
-constexpr double mostWork = 8e9;  // pairs of spheres: about a minute
+constexpr double mostWork = 8e9;  // pairs of spheres: about two minutes
 constexpr std::uint64_t betweenLooks = 2000;  // steps, after which jammed spheres are recognised
 constexpr double jammedFall = 0.9;            // of the energy in these steps
 
