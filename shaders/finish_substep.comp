@@ -379,21 +379,24 @@ LANE_KERNEL(params.spheres) {
     mask inside = sphereAwake && !bad;
     if (HAS(OPEN_FACES)) {
         real4 reference = HAS(CONTACTS) ? ROW(listReference, invocation) : real4(0.0f, 0.0f, 0.0f, 0.0f);
-        mask outside = inside && (reference.w != 0.0f || leavesBounds(to));
+        mask outside = inside && ((reference.w != 0.0f && isRoom(reference.w)) || leavesBounds(to));
         inside = inside && !outside;
         EACH_LANE(outside && moves, checkOutside, invocation)
     }
     real motion = sqrt(dot3(arc, arc)) * h;
     RAISE_TO(inside && motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
     if (HAS(CONTACTS)) {  // no function: glslang would need minutes, because `precise` spreads through its parameter
-        real3 since = to - real3(ROW(listReference, invocation)) - real3(driftPath());
+        real4 listed = ROW(listReference, invocation);
+        real3 since = to - real3(listed) - real3(driftPath());
         real3 relative = arc - real3(driftVelocity());
         real moved = sqrt(dot3(since, since));
         real next = sqrt(dot3(relative, relative)) * h;  // in the next substep, to whose end the lists must hold
-        mask soon = inside && moved + mostNext(motion) * SOON_SUBSTEPS > params.rebuildMove;
+        real most = real(params.rebuildMove);
+        if (HAS(MOVERS)) most = select(isRoom(listed.w), most, most + listed.w * (1.0f / MORE_MOTION_UNITS));
+        mask soon = inside && moved + mostNext(motion) * SOON_SUBSTEPS > most;
         if (HAS(PERIODIC)) soon = soon || (inside && mustWrap(to + arc * (h * SOON_SUBSTEPS)));
         if (!anyLane(soon)) return;
-        mask leaves = inside && moved + next > params.rebuildMove;
+        mask leaves = inside && moved + next > most;
         if (HAS(PERIODIC)) leaves = leaves || (inside && mustWrap(to));
         askForLists(anyLane(leaves), HAS(PERIODIC));
     }

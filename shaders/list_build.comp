@@ -26,6 +26,7 @@ BUFFER(writeonly, uvec2, candidates)  // see candidate.h
 BUFFER(writeonly, uvec2, groupRange)  // first candidate, candidates
 BUFFER(readonly, uint, cellOrder)
 BUFFER(readonly, uint, isMover)
+BUFFER(readonly, vec4, listReference)
 
 #define LOCAL_PAIRS (THREADS == 1u ? 192u : 32u)
 // Pairs with a gap above this share of the smaller radius are far. They come last in their batch, so that pairs that
@@ -40,6 +41,7 @@ PRIVATE(uvec2, local[LOCAL_PAIRS])
 PRIVATE(uint, visitedEntry)  // of the sphere whose range is visited
 PRIVATE(uint, visited)       // its slot
 PRIVATE(uint, visitedId)
+PRIVATE(float, visitedReach)  // beyond the radii (m)
 
 SHARED(uint, firstOfThread[THREADS])  // first the number of pairs of each thread, then the number of those before it
 SHARED(uint, groupPairs)
@@ -48,10 +50,22 @@ SHARED(bool, fits)
 SHARED(uint, cutShort)
 
 #include "shared/entries.h"
+#include "shared/mover_reach.h"
+
+float moreReach(uint slot) {
+    return moreMotionOf(listReference[slot]);
+}
+
+bool isNear(uint a, uint b, float most) {
+    vec3 d = separation(vec3(position[a]), vec3(position[b]));
+    float reach = radiusSum(position[a], position[b]) + most;
+    return dot3(d, d) < reach * reach;
+}
 
 void addPair(uint entry, bool isFar) {
     if (isOldEntry(visitedEntry, entry)) return;
     uint b = slotOfEntry(entry);
+    if (isEntryOfMover(entry) && !isNear(visited, b, visitedReach + moreReach(b))) return;
     uvec2 pair = candidateOf(visited, b, isFar, batchHash(visitedId, idOf(idAndMaterial[b])));
     if (base != UNLISTED) {
         candidates[base + found] = pair;
@@ -66,6 +80,8 @@ void visitRange(uint a, uint begin, uint end) {
     visited = slotOfEntry(a);
     visitedId = idOf(idAndMaterial[visited]);
     vec4 sphere = position[visited];
+    visitedReach = params.margin + moreReach(visited);
+    float farthest = visitedReach + (isEntryOfMover(begin) ? mostMoreMotion() : 0.0f);
     real4 pa = real4(sphere);
     bool fixedHere = HAS(FIXED) && isFixed(velocity[visited]);  // a mover is not fixed
     for (uint b = begin; b < end; b += LANES) {
@@ -74,7 +90,7 @@ void visitRange(uint a, uint begin, uint end) {
         real4 pb = real4(ROW(sortedX, at), ROW(sortedY, at), ROW(sortedZ, at), radius);
         real3 d = separation(real3(pa), real3(pb));
         real touch = radiusSum(pa, pb);
-        real reach = touch + params.margin;
+        real reach = touch + farthest;
         real squared = dot3(d, d);
         mask listed = IN_ROWS(at) && squared < reach * reach;
         if (!anyLane(listed)) continue;
@@ -86,7 +102,9 @@ void visitRange(uint a, uint begin, uint end) {
     }
 }
 
+#define FOR_LISTS
 #include "shared/group.h"
+#undef FOR_LISTS
 
 // Finds room for the pairs of the group.
 void reserve() {

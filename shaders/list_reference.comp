@@ -6,6 +6,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/grid.h"
 #include "shared/limits.h"
 #include "shared/outside.h"
 
@@ -25,6 +26,7 @@ BUFFER(coherent, uint, cellOrder)
 BUFFER(writeonly, uint, isMover)
 
 #include "shared/movers.h"
+#include "shared/mover_reach.h"
 #include "shared/ordered_key.h"
 #include "shared/carried.h"
 
@@ -56,7 +58,8 @@ KERNEL(params.spheres) {
         room = lost(sphere) ? UNLIMITED_ROOM : -params.margin;
         if (!lost(sphere) && !alone) cellOrder[atomicAdd(counters[COUNTER_OUTSIDE], 1u)] = slot;
     }
-    listReference[slot] = vec4(vec3(sphere), room);
+    float more = alone && room == 0.0f ? moreMotion(v) : 0.0f;
+    listReference[slot] = vec4(vec3(sphere), more > LEAST_MORE_MOTION / MORE_MOTION_UNITS ? more * MORE_MOTION_UNITS : room);
     if (HAS(MOVERS) && !alone) isMover[slot] = 0u;
     uint id = idOf(idAndMaterial[slot]);
     slotOf[id] = slot;

@@ -59,8 +59,8 @@ KERNEL(params.spheres) {
             atomicExchange(restlessBlock[block], substep);
         if (mover && level == own) continue;  // the lists of its own level have no pairs of a mover
         uint group = groupNumber(cells, place.x / 2u, place.y / 2u, place.z / 2u);
-        atomicExchange(activeBlock[block], substep);
-        atomicExchange(activeGroup[group], substep);
-        if (wakes) atomicExchange(wakerGroup[group], substep);
+        if (SEEN(activeBlock[block]) != substep) atomicExchange(activeBlock[block], substep);
+        if (SEEN(activeGroup[group]) != substep) atomicExchange(activeGroup[group], substep);
+        if (wakes && SEEN(wakerGroup[group]) != substep) atomicExchange(wakerGroup[group], substep);
     }
 }

@@ -86,9 +86,16 @@ Grid gridFor(const scene::Bounds& bounds, const RadiusStats& radii, double margi
 
 void addMoverLevel(Grid& grid, const scene::Bounds& bounds, std::uint32_t mostMovers) {
     const Level& coarsest = grid.coarsest();
-    Level level = levelFor(bounds, static_cast<double>(coarsest.largest), static_cast<double>(grid.margin),
+    // The farthest that a mover may move before its lists are rebuilt, in addition to the share of the margin, in
+    // radii. The lists have pairs with gaps that are larger by this for each mover of a pair
+    // (shaders/shared/mover_reach.h).
+    constexpr double mostMoreMotion = 1;
+    const auto largest = static_cast<double>(coarsest.largest);
+    Level level = levelFor(bounds, largest, static_cast<double>(grid.margin) + 2 * mostMoreMotion * largest,
                            std::max(fewestCells, cellsPerSphere * mostMovers));
-    level.sampleThreshold = coarsest.sampleThreshold;
+    const double wider = static_cast<double>(level.cellSize / coarsest.cellSize);
+    level.sampleThreshold =
+        static_cast<float>(std::ceil(static_cast<double>(coarsest.sampleThreshold) * std::pow(wider, 3)));
     level.first = grid.all();
     level.firstBundle = grid.bundles();
     grid.levels.push_back(level);

@@ -34,13 +34,14 @@ struct Reach {
     uint rows;
 };
 
-Reach reachOf(vec4 sphere, uint level) {
+// `more`: a distance (m) beyond the margin.
+Reach reachOf(vec4 sphere, uint level, float more) {
     Reach r;
     r.cells = cellsOf(level);
     r.centre = vec3(sphere) * inverseCellsOf(level);
     // A little more than the exact radius, because the cells of the other spheres are rounded.
     float farthest = max(max(abs(r.centre.x), abs(r.centre.y)), abs(r.centre.z));
-    r.radius = (storedRadius(sphere) + largestRadius(level) + params.margin) * inverseCellOf(level) * 1.0001f + 0.01f +
+    r.radius = (storedRadius(sphere) + largestRadius(level) + params.margin + more) * inverseCellOf(level) * 1.0001f + 0.01f +
                farthest * 1.0e-6f;
     r.rows = 0u;
     if (!finite3(r.centre)) return r;

@@ -9,6 +9,14 @@
 
 #include "shared/cell_runs.h"
 
+// By how much (m) the gaps of a sphere's pairs may exceed the margin. An includer that makes lists defines FOR_LISTS and
+// this function.
+#ifndef FOR_LISTS
+float moreReach(uint slot) {
+    return 0.0f;
+}
+#endif
+
 // A cell with more spheres than sampleThreshold() is overfull: in each round, each of its spheres is paired only with a
 // sample of the others. The sample has at most SAMPLE_MOST spheres. It has fewer, but at least SAMPLE_LEAST, if the
 // cell holds very many, so that the work of a cell is bounded.
@@ -84,7 +92,7 @@ void visitSphere(uint a, uint level, uint sampleSize, uint sampleRound) {
         bool finer = HAS(LEVELS) && pass > 0u;
         uint other = finer ? pass - 1u : level;
         uvec4 cells = cellsOf(other);
-        if (finer) reached = reachOf(position[slotOfEntry(a)], other);
+        if (finer) reached = reachOf(position[slotOfEntry(a)], other, moreReach(slotOfEntry(a)));
         uint rows = finer ? reached.rows : 5u;
         for (uint row = 0u; row < rows; ++row) {
             uint first = finer ? firstOfChord(row) : firstOfRow(cells, row);

@@ -2,8 +2,8 @@
 // Therefore, while few spheres are awake, spheres that leave their place get lists of their own: the movers. Their grid
 // of cells is one more level, coarser than the others, so that its blocks own the pairs of movers with each other and
 // with all other spheres. The lists of all other spheres stay as they were built. They hold while these spheres stay
-// near their list references, and a sphere that does not becomes a mover. rebuild_decide.comp chooses which lists are
-// built.
+// near their list references, and a sphere that does not becomes a mover. The lists of a fast mover reach farther, so
+// that they last for several substeps (shared/mover_reach.h). rebuild_decide.comp chooses which lists are built.
 //
 // An entry of a cell is a sphere of this cell. The lists of all spheres sort them into their cells: up to
 // counters[COUNTER_SORTED], the number of an entry is the slot of its sphere. The entries of movers follow. Their slots

@@ -14,8 +14,22 @@
 // another one outside. This value means that there is no limit.
 #define UNLIMITED_ROOM 1.0e18f
 
+// For a mover inside, it is the distance that the mover may move in addition to params.rebuildMove (shared/movers.h), in
+// units of 2^-100 m. Values from this one on are such distances.
+#define LEAST_MORE_MOTION 1.0e19f
+#define MORE_MOTION_UNITS 1.2676506e30f  // 2^100
+
+ANY_MASK isRoom(ANY_REAL w) {
+    return w < LEAST_MORE_MOTION;
+}
+
 float roomOf(vec4 reference) {
-    return reference.w;
+    return isRoom(reference.w) ? reference.w : 0.0f;
+}
+
+// Returns the distance (m) that the sphere may move in addition to params.rebuildMove before its lists are rebuilt.
+float moreMotionOf(vec4 reference) {
+    return HAS(MOVERS) && !isRoom(reference.w) ? reference.w / MORE_MOTION_UNITS : 0.0f;
 }
 
 // The share of its room that a sphere may use up before there are new lists. Two spheres use up the same gap, and each
