@@ -50,14 +50,17 @@ KERNEL(params.spheres) {
     uint own = levelOf(storedRadius(position[invocation]));
     vec4 rest = restReference[idOf(idAndMaterial[invocation])];
     bool wakes = canWake(v, rest);
+    // Only with friction do spheres fall asleep together.
+    bool restless = HAS(BALANCED) && HAS(FRICTION) && quietTimeOf(rest) < params.sleepTime &&
+                    heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS;
     for (uint level = own; level < levels; ++level) {
+        bool listed = !mover || level != own;  // the lists of its own level have no pairs of a mover
+        if (!listed && !restless) continue;
         uvec4 cells = cellsOf(level);
         uvec4 place = cellPlaceAt(vec3(reference), level);
         uint block = blockNumber(cells, place.x / 4u, place.y / 4u, place.z / 4u);
-        if (HAS(BALANCED) && level == own && heldPairs(unheldVelocity[invocation].w) >= RESTLESS_PAIRS &&
-            quietTimeOf(rest) < params.sleepTime)
-            atomicExchange(restlessBlock[block], substep);
-        if (mover && level == own) continue;  // the lists of its own level have no pairs of a mover
+        if (restless && level == own) atomicExchange(restlessBlock[block], substep);
+        if (!listed) continue;
         uint group = groupNumber(cells, place.x / 2u, place.y / 2u, place.z / 2u);
         if (SEEN(activeBlock[block]) != substep) atomicExchange(activeBlock[block], substep);
         if (SEEN(activeGroup[group]) != substep) atomicExchange(activeGroup[group], substep);
