@@ -1,6 +1,5 @@
-// Finishes a substep of the model `balanced`: solves the contacts of each sphere with walls and obstacles by the law of
-// shared/contact_law.h, then moves the sphere. Asks for new pair lists if the sphere may leave its margin in the next
-// substep.
+// Finishes a substep of `balanced`: solves the contacts of each sphere with walls and obstacles (shared/contact_law.h),
+// then moves the sphere. Asks for new pair lists if the sphere may leave its margin in the next substep.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -364,8 +363,8 @@ LANE_KERNEL(params.spheres) {
     real3 arc = sphereVelocity;
     if (HAS(FIELDS)) {
         real3 gravity = HAS(GRAVITY) ? real3(params.gravity) : real3(0.0f, 0.0f, 0.0f);
-        real4 before = ROW(velocityBefore, invocation);
-        real3 mean = meanAcceleration(gravity, spherePoint, real3(before), sphereRadius, inverseMass);
+        real3 before = real3(ROW(velocityBefore, invocation));
+        real3 mean = meanAcceleration(gravity, spherePoint, before, sphereRadius, inverseMass);
         arc = select(isFree, arc - mean * (0.5f * h), arc);
     } else if (HAS(GRAVITY)) {
         arc = select(isFree, arc - real3(params.gravity) * (0.5f * h), arc);
@@ -377,8 +376,8 @@ LANE_KERNEL(params.spheres) {
     mask bad = sphereAwake && !finiteLanes(to);
     EACH_LANE(bad, reportNonFinite, invocation)
     mask inside = sphereAwake && !bad;
+    real4 reference = HAS(CONTACTS) ? ROW(listReference, invocation) : real4(0.0f, 0.0f, 0.0f, 0.0f);
     if (HAS(OPEN_FACES)) {
-        real4 reference = HAS(CONTACTS) ? ROW(listReference, invocation) : real4(0.0f, 0.0f, 0.0f, 0.0f);
         mask outside = inside && ((reference.w != 0.0f && isRoom(reference.w)) || leavesBounds(to));
         inside = inside && !outside;
         EACH_LANE(outside && moves, checkOutside, invocation)
@@ -386,13 +385,11 @@ LANE_KERNEL(params.spheres) {
     real motion = sqrt(dot3(arc, arc)) * h;
     RAISE_TO(inside && motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
     if (HAS(CONTACTS)) {  // no function: glslang would need minutes, because `precise` spreads through its parameter
-        real4 listed = ROW(listReference, invocation);
-        real3 since = to - real3(listed) - real3(driftPath());
+        real3 since = to - real3(reference) - real3(driftPath());
         real3 relative = arc - real3(driftVelocity());
         real moved = sqrt(dot3(since, since));
         real next = sqrt(dot3(relative, relative)) * h;  // in the next substep, to whose end the lists must hold
-        real most = real(params.rebuildMove);
-        if (HAS(MOVERS)) most = select(isRoom(listed.w), most, most + listed.w * (1.0f / MORE_MOTION_UNITS));
+        real most = moreMotionOf(reference.w) + params.rebuildMove;
         mask soon = inside && moved + mostNext(motion) * SOON_SUBSTEPS > most;
         if (HAS(PERIODIC)) soon = soon || (inside && mustWrap(to + arc * (h * SOON_SUBSTEPS)));
         if (!anyLane(soon)) return;

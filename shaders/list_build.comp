@@ -1,5 +1,5 @@
-// Finds the pairs of each group of 2 x 2 x 2 cells whose gap is below the margin: the candidates. Pairs of fixed
-// spheres are left out. The threads of a work group take equal shares of the group's spheres. The first walk of a thread
+// Finds the pairs of each group of 2 x 2 x 2 cells whose gap is below the margin, or larger for movers
+// (shared/mover_reach.h): the candidates. Pairs of fixed spheres are left out. The threads of a work group take equal shares of the group's spheres. The first walk of a thread
 // fills a local array, which is then copied. A thread with more pairs walks a second time.
 #include "shared/kernel.h"
 #include "shared/layout.h"
@@ -53,7 +53,7 @@ SHARED(uint, cutShort)
 #include "shared/mover_reach.h"
 
 float moreReach(uint slot) {
-    return moreMotionOf(listReference[slot]);
+    return moreMotionOf(listReference[slot].w);
 }
 
 bool isNear(uint a, uint b, float most) {

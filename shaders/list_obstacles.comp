@@ -19,7 +19,6 @@ BUFFER(readonly, uint, moverSlots)
 #include "shared/mesh_room.h"
 #include "shared/movers.h"
 #include "shared/grid.h"
-#include "shared/limits.h"
 #include "shared/mover_reach.h"
 
 // The lists hold for some time even if all spheres fall together, and the pair lists with them.
@@ -42,7 +41,7 @@ KERNEL(params.spheres) {
     float radius = radiusOf(position[slot]);
     // A contact that ended in the last substep is listed too, because the sphere must forget it.
     float reach = radius + LIST_REACH * params.margin + sqrt(dot3(v, v)) * params.substep;
-    if (moversAlone()) reach = reach + moreMotion(velocity[slot]);
+    if (moversAlone()) reach = reach + moreMotion(radius, velocity[slot]);
     if (HAS(MOTION)) reach = reach + OBSTACLE_SUBSTEPS * params.obstaclePath;
     float room = 1.0e18f;
     uint found = 0u;

@@ -58,7 +58,7 @@ KERNEL(params.spheres) {
         room = lost(sphere) ? UNLIMITED_ROOM : -params.margin;
         if (!lost(sphere) && !alone) cellOrder[atomicAdd(counters[COUNTER_OUTSIDE], 1u)] = slot;
     }
-    float more = alone && room == 0.0f ? moreMotion(v) : 0.0f;
+    float more = alone && room == 0.0f ? moreMotion(radiusOf(sphere), v) : 0.0f;
     listReference[slot] = vec4(vec3(sphere), more > LEAST_MORE_MOTION / MORE_MOTION_UNITS ? more * MORE_MOTION_UNITS : room);
     if (HAS(MOVERS) && !alone) isMover[slot] = 0u;
     uint id = idOf(idAndMaterial[slot]);

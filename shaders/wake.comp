@@ -43,10 +43,6 @@ void visitPair(uint a, uint b) {
     wakeBy(aSleeps ? a : b, aSleeps ? b : a);
 }
 
-void visitListed(uint k) {
-    visitPair(pairs[k].x, SECOND_OF(pairs[k]));
-}
-
 #include "shared/visit_range.h"
 #include "shared/group.h"
 #include "shared/left_block.h"
@@ -65,18 +61,8 @@ bool beginBundle(uint bundle) {
 void endBundle(uint bundle) {
 }
 
-bool expectsPairs() {
-    return false;
+void visitPairs(uint a, uint b, uint at) {
+    visitPair(a, SLOTS_OF(b));
 }
 
-void expectPairs(uint first, uint count) {
-}
-
-void visitPairs(slots a, slots b, uintRow at) {
-    // Most pairs are of two sleepers, or of two spheres that are awake.
-    mask aSleeps = MEMBER(velocity, a, w) < 0.0f;
-    mask bSleeps = MEMBER(velocity, SLOTS_OF(b), w) < 0.0f;
-    EACH_LANE(liveLanes() && ((aSleeps && !bSleeps) || (bSleeps && !aSleeps)), visitListed, at)
-}
-
-LANE_PAIR_KERNEL
+PAIR_KERNEL

@@ -57,6 +57,11 @@ double fullCell(const SizeClass& one, double cellSize) {
     return densest * std::pow(cellSize / one.smallest, 3) / ball;
 }
 
+float sampleThresholdOf(const SizeClass& one, const Level& level) {
+    const double threshold = std::ceil(thresholdInFull * fullCell(one, static_cast<double>(level.cellSize)));
+    return static_cast<float>(std::clamp(threshold, smallestThreshold, 1e6));
+}
+
 }  // namespace
 
 std::uint32_t Level::bundlesOfColour() const {
@@ -77,14 +82,13 @@ Grid gridFor(const scene::Bounds& bounds, const RadiusStats& radii, double margi
             level.first = grid.all();
             level.firstBundle = grid.bundles();
         }
-        const double sampleThreshold = std::ceil(thresholdInFull * fullCell(one, static_cast<double>(level.cellSize)));
-        level.sampleThreshold = static_cast<float>(std::clamp(sampleThreshold, smallestThreshold, 1e6));
+        level.sampleThreshold = sampleThresholdOf(one, level);
         grid.levels.push_back(level);
     }
     return grid;
 }
 
-void addMoverLevel(Grid& grid, const scene::Bounds& bounds, std::uint32_t mostMovers) {
+void addMoverLevel(Grid& grid, const scene::Bounds& bounds, const RadiusStats& radii, std::uint32_t mostMovers) {
     const Level& coarsest = grid.coarsest();
     // The farthest that a mover may move before its lists are rebuilt, in addition to the share of the margin, in
     // radii. The lists have pairs with gaps that are larger by this for each mover of a pair
@@ -93,9 +97,7 @@ void addMoverLevel(Grid& grid, const scene::Bounds& bounds, std::uint32_t mostMo
     const auto largest = static_cast<double>(coarsest.largest);
     Level level = levelFor(bounds, largest, static_cast<double>(grid.margin) + 2 * mostMoreMotion * largest,
                            std::max(fewestCells, cellsPerSphere * mostMovers));
-    const double wider = static_cast<double>(level.cellSize / coarsest.cellSize);
-    level.sampleThreshold =
-        static_cast<float>(std::ceil(static_cast<double>(coarsest.sampleThreshold) * std::pow(wider, 3)));
+    level.sampleThreshold = sampleThresholdOf(radii.classes.back(), level);
     level.first = grid.all();
     level.firstBundle = grid.bundles();
     grid.levels.push_back(level);

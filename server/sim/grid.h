@@ -51,7 +51,7 @@ struct Grid {
 Grid gridFor(const scene::Bounds& bounds, const RadiusStats& radii, double marginInRadii);
 
 // Adds the level of movers, for at most so many of them.
-void addMoverLevel(Grid& grid, const scene::Bounds& bounds, std::uint32_t mostMovers);
+void addMoverLevel(Grid& grid, const scene::Bounds& bounds, const RadiusStats& radii, std::uint32_t mostMovers);
 
 // Refuses a periodic axis that is too short for the cells of the grid: two blocks of the pair order (shared/bundles.h).
 Result<void> checkPeriods(const scene::Bounds& bounds, const Grid& grid);

@@ -278,7 +278,7 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
     if (features.has(Feature::Contacts)) {
         plan.grid = gridFor(scene.bounds, radii, marginInRadii(features));
         plan.mostMovers = mostMovers.value_or(newMovers(features, spheres, plan.grid));
-        if (plan.mostMovers > 0) addMoverLevel(plan.grid, scene.bounds, plan.mostMovers);
+        if (plan.mostMovers > 0) addMoverLevel(plan.grid, scene.bounds, radii, plan.mostMovers);
         plan.features.set(Feature::Movers, plan.grid.hasMovers);
         plan.features.set(Feature::Levels, plan.grid.levels.size() > 1);
         plan.pairCapacity = pairCapacity != 0

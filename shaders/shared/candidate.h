@@ -1,4 +1,4 @@
-// A row of `candidates`, a pair within the margin before it has its place in the lists. The first word has the slot of the
+// A row of `candidates`, a pair of near spheres before it has its place in the lists. The first word has the slot of the
 // first sphere, the hash that chooses the batch, and a bit that is set if the pair is far. The second word has the slot
 // of the other sphere and, once it is chosen, the pair's place among the places of its block (list_order.comp).
 

@@ -107,7 +107,7 @@ bool leavesLists(vec3 to, vec3 v, vec4 reference, float radius, float ahead) {
     // In `balanced`, the lists must hold to the end of the next substep.
     if (HAS(BALANCED)) moved = moved + sqrt(dot3(relative, relative)) * params.substep;
     moved = moved + mostNext(sqrt(dot3(v, v)) * params.substep) * ahead;
-    bool leftMargin = moved > params.rebuildMove + moreMotionOf(reference);
+    bool leftMargin = moved > params.rebuildMove + moreMotionOf(reference.w);
     if (roomOf(reference) == 0.0f) return leftMargin;
     if (leftMargin && !(beyondStrip(to) && beyondStrip(vec3(reference)))) return true;
     if (lost(vec4(vec3(reference), radius))) return !lost(vec4(later, radius));

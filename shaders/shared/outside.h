@@ -3,7 +3,8 @@
 // Spheres outside the bounds have left through an open face. A sphere that is far from all others asks for no new
 // lists, however fast it is.
 //
-// The lists hold in two frames of reference. A sphere inside must stay within params.rebuildMove of its list reference.
+// The lists hold in two frames of reference. A sphere inside must stay within params.rebuildMove of its list reference. A
+// mover inside may move farther (shared/mover_reach.h).
 //
 // A sphere outside must stay close to its list reference in a frame that moves. The frame follows a ballistic arc, as
 // fast as the fastest sphere outside, so that spheres that fall together rest in it. The allowed distance is a share of
@@ -14,7 +15,7 @@
 // another one outside. This value means that there is no limit.
 #define UNLIMITED_ROOM 1.0e18f
 
-// For a mover inside, it is the distance that the mover may move in addition to params.rebuildMove (shared/movers.h), in
+// For a mover inside, it is the distance that the mover may move in addition to params.rebuildMove, in
 // units of 2^-100 m. Values from this one on are such distances.
 #define LEAST_MORE_MOTION 1.0e19f
 #define MORE_MOTION_UNITS 1.2676506e30f  // 2^100
@@ -28,8 +29,9 @@ float roomOf(vec4 reference) {
 }
 
 // Returns the distance (m) that the sphere may move in addition to params.rebuildMove before its lists are rebuilt.
-float moreMotionOf(vec4 reference) {
-    return HAS(MOVERS) && !isRoom(reference.w) ? reference.w / MORE_MOTION_UNITS : 0.0f;
+// `w`: of its row of listReference.
+ANY_REAL moreMotionOf(ANY_REAL w) {
+    return select(isRoom(w), w * 0.0f, w * (1.0f / MORE_MOTION_UNITS));
 }
 
 // The share of its room that a sphere may use up before there are new lists. Two spheres use up the same gap, and each
@@ -54,9 +56,10 @@ float beyond(vec3 p) {
     return max(x, max(y, z));
 }
 
-// The width (m) of the strip around the bounds in which a sphere may touch one inside: a cell of the coarsest level.
+// The width (m) of the strip around the bounds in which a sphere may touch one inside: a cell of the coarsest level. A
+// mover goes out farther before it has new lists.
 float strip() {
-    return 1.0f / params.inverseCell;
+    return 1.0f / (HAS(MOVERS) ? params.levelSize[params.moverLevel].x : params.inverseCell);
 }
 
 mask leavesBounds(real3 p) {

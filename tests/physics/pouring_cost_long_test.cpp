@@ -82,7 +82,9 @@ TEST(PouringCost, IsThatOfTheSpheresWhichAreAwake) {
     run(*asleep, begin + 1);
     const sim::Statistics statistics = pouring->statistics();
     const std::size_t awake = statistics.spheres - statistics.sleeping;
+    ASSERT_GT(awake, bed.size() / 10);
     ASSERT_LT(awake, bed.size() / 2);
+    ASSERT_GE(asleep->statistics().sleeping, bed.size() / 100 * 99);
     scene::Scene top = sceneWith(bed, awake, true);
     top.sleep.enabled = false;
     auto awakeAlone = simulate(top);
