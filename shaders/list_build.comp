@@ -1,6 +1,7 @@
 // Finds the pairs of each group of 2 x 2 x 2 cells whose gap is below the margin, or larger for movers
-// (shared/mover_reach.h): the candidates. Pairs of fixed spheres are left out. The threads of a work group take equal shares of the group's spheres. The first walk of a thread
-// fills a local array, which is then copied. A thread with more pairs walks a second time.
+// (shared/mover_reach.h): the candidates. Pairs of fixed spheres are left out. The threads of a work group take equal
+// shares of the group's spheres. The first walk of a thread fills a local array, which is then copied. A thread with more
+// pairs walks a second time.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

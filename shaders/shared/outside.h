@@ -15,8 +15,8 @@
 // another one outside. This value means that there is no limit.
 #define UNLIMITED_ROOM 1.0e18f
 
-// For a mover inside, it is the distance that the mover may move in addition to params.rebuildMove, in
-// units of 2^-100 m. Values from this one on are such distances.
+// For a mover inside, listReference.w is the additional distance that it may move (shared/mover_reach.h), in units of
+// 2^-100 m. Values from this one on are such distances.
 #define LEAST_MORE_MOTION 1.0e19f
 #define MORE_MOTION_UNITS 1.2676506e30f  // 2^100
 
