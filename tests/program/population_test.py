@@ -1,4 +1,5 @@
 """Tests `remove`, sinks and `spawn` with clients that follow the population and clients that do not."""
+import base64
 import json
 import sys
 import unittest
@@ -50,6 +51,11 @@ class Follower(Viewer):
             table[place] = int(run.get("id", 0)) + k
 
 
+def size(frame):
+    """Returns the bytes of positions, values and spins."""
+    return sum(len(base64.b64decode(frame.get(name, ""))) for name in ("spb", "values", "spins"))
+
+
 class Population(FolderTestCase):
     def serve(self, scene, *options):
         return Server(BINARY, "serve", self.write("scene.json", json.dumps(scene)), "--device", "cpu:1", *options)
@@ -91,6 +97,31 @@ class Population(FolderTestCase):
             self.assertEqual(int(statistics["born"]), before + 10)
             self.assertEqual(int(statistics["removed"]), 3)
             self.assertEqual(server.metrics()["spherule_spheres_removed_total", ""], 3)
+
+    def test_frames_grow_by_what_new_spheres_need(self):
+        begin = 2  # s, when the bed sleeps
+        pouring = dict(BED, emitters=[{"box": {"min": [-0.9, -0.9, 0.5], "max": [0.9, 0.9, 0.5]}, "rate": 60, "begin": begin,
+                                       "radius": {"constant": 0.05}, "velocity": [0, 0, -1]}])
+        with self.serve(pouring) as server:
+            follower = Follower(server.port)
+            follower.wait(lambda one: one.of("frame") and one.of("frame")[-1]["simTime"] > begin + 3)
+            frames = follower.of("frame")
+            asleep = [frame for frame in frames if begin - 0.5 < frame["simTime"] < begin]
+            later = [frame for frame in frames if frame["simTime"] > begin]
+            bed = sum(run["count"] for run in follower.of("scene")[0]["places"])
+            self.assertEqual({frame["status"]["sleeping"] for frame in asleep}, {bed}, "the bed sleeps")
+            self.assertLessEqual(len(follower.of("scene")), 2, "one epoch with more places")
+            born = len(follower.table()) - bed
+            self.assertGreater(born, 150)
+            # Those that an earlier status tells: births come evenly.
+            awake = sum(bed + born * k / len(later) - frame["status"].get("sleeping", 0) for k, frame in enumerate(later))
+            at_rest = max(size(frame) for frame in asleep)
+            moving = sum(size(frame) - at_rest for frame in later)
+            told = sum(len(json.dumps(message)) for message in follower.of("population"))
+            print(f"{born} births, {len(later)} frames with {awake:.0f} awake spheres in all: {moving} bytes besides "
+                  f"{at_rest} bytes per frame, and {told} bytes of messages of births")
+            self.assertLess(moving, 2 * awake + 64 * born)  # a keyframe for each birth would be more
+            self.assertLess(told, 200 * born)
 
     def test_refusals_name_the_field_and_change_nothing(self):
         with self.serve(BED) as server:
