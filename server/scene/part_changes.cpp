@@ -1,6 +1,8 @@
 #include "scene/part_changes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,13 +25,27 @@ namespace {
 using Part = PartChange::Part;
 using Kind = PartChange::Kind;
 
+// Refuses a change that makes a step take very long: everybody who watches would wait. `before`: the substeps before.
+void checkCost(Check& check, const Scene& scene, std::uint32_t before) {
+    constexpr double mostGrowth = 8;
+    const double most = std::max(mostGrowth * before, std::floor(substepsOfTenSeconds(scene)));
+    if (scene.quality.substeps > most)
+        check.refuse("quality.substeps",
+                     fmt::format("would rise from {} to {}, and a step would take minutes; at most {:.0f} are allowed: "
+                                 "make springs, liquids or materials softer, or spheres heavier",
+                                 before, scene.quality.substeps, most),
+                     Cause::TooManySubsteps, {.least = {}, .most = most});
+}
+
 // Refuses a scene that does not hold together any more, as buildIn() does. Chooses the substeps.
 Result<PartChange> checked(Scene& scene, const PartChange& change) {
     Check check;
+    const std::uint32_t before = scene.quality.substeps;
     if (const double smallest = smallestRadiusIn(scene); smallest > 0)
         checkResolution(check, scene, smallest, "bounds");
     for (const auto& fits : {checkPeriodicAxes(scene), checkLiquids(scene), checkModel(scene), fitSubsteps(scene)})
         if (check.ok() && !fits) check.refuse(fits.error());
+    if (check.ok()) checkCost(check, scene, before);
     if (check.ok()) checkEmitterSpeeds(check, scene);
     if (check.ok())
         if (const auto fits = checkObstacleSpeeds(scene); !fits) check.refuse(fits.error());

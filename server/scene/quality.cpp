@@ -156,17 +156,20 @@ Result<void> fitSubsteps(Scene& scene) {
                 {.least = fewest, .most = most});
 }
 
-std::uint32_t maxSubstepsFor(const Scene& scene) {
-    // Per step: about ten seconds on one processor.
-    constexpr double mostSphereSubsteps = 2e8;
+double substepsOfTenSeconds(const Scene& scene) {
+    constexpr double sphereSubsteps = 2e8;
     // The launches of a substep take as long as this number of spheres.
     constexpr double launches = 1e4;
+    return sphereSubsteps / (static_cast<double>(scene.spheres.size()) + launches);
+}
+
+std::uint32_t maxSubstepsFor(const Scene& scene) {
     constexpr double timesOwn = 8;  // the largest factor that the dial offers
     // Only the springs of `accurate` depend on whether substeps are fixed; others need no copy of the scene.
     const bool copied = scene.quality.model == Model::Accurate && scene.quality.substepsFixed;
     const double own = copied ? defaultSubsteps(withFreeSubsteps(scene, Model::Accurate)) : defaultSubsteps(scene);
-    const double bySize = mostSphereSubsteps / (static_cast<double>(scene.spheres.size()) + launches);
-    return static_cast<std::uint32_t>(std::clamp<double>(std::max(timesOwn * own, bySize), 1, maxSubsteps));
+    const double most = std::max(timesOwn * own, substepsOfTenSeconds(scene));
+    return static_cast<std::uint32_t>(std::clamp<double>(most, 1, maxSubsteps));
 }
 
 std::uint32_t maxRaisedSubsteps(const Scene& scene) {

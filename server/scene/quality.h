@@ -34,6 +34,9 @@ std::uint32_t minSubstepsFor(const Scene& scene, Model model);
 // long.
 std::uint32_t maxSubstepsFor(const Scene& scene);
 
+// Returns the substeps that take about ten seconds per step on one processor.
+double substepsOfTenSeconds(const Scene& scene);
+
 // Returns the most substeps that the simulation uses while a sphere is very fast.
 std::uint32_t maxRaisedSubsteps(const Scene& scene);
 

@@ -241,5 +241,26 @@ TEST(PartChange, IsCheckedWithTheWholeScene) {
               std::string::npos);
 }
 
+// A change may not make a step take minutes. A written scene may.
+TEST(PartChange, ThatNeedsVeryManySubstepsIsRefused) {
+    auto simulation = simulate(emptyBox(R"({"box": {"min": [-0.5, -0.5, 0.6], "max": [0.5, 0.5, 1]}, "rate": 100,
+                                            "radius": {"constant": 0.001}})",
+                                        Model::Balanced));
+    const auto spring = [](double stiffness) {
+        return addField(fmt::format(R"({{"spring": {{"centre": [0, 0, 0], "stiffness": {}}}}})", stiffness));
+    };
+    const std::string before = described(*simulation);
+    const std::uint32_t substeps = simulation->substeps();
+    const std::string refusal = refusalOf(*simulation, spring(5e8));
+    EXPECT_NE(refusal.find(fmt::format("quality.substeps: would rise from {} to ", substeps)), std::string::npos)
+        << refusal;
+    EXPECT_NE(refusal.find("at most 20000 are allowed"), std::string::npos) << refusal;
+    EXPECT_EQ(described(*simulation), before);
+    EXPECT_EQ(simulation->substeps(), substeps);
+    apply(*simulation, spring(1e5));
+    EXPECT_LE(simulation->substeps(), 20000U);
+    EXPECT_GT(simulation->substeps(), 10000U);
+}
+
 }  // namespace
 }  // namespace spherule::physics
