@@ -74,9 +74,7 @@ double Emitter::massOf(const Sphere& sphere) const {
 }
 
 double Emitter::meanMass() const {
-    double sum = 0;
-    for (const Sphere& sphere : samples) sum += massOf(sphere);
-    return sum / static_cast<double>(samples.size());
+    return 4.0 / 3 * std::numbers::pi * radii.meanCube() * density;
 }
 
 }  // namespace spherule::scene

@@ -73,8 +73,7 @@ struct Emitter {
     [[nodiscard]] Sphere sphere(std::uint64_t number) const;
     // Returns the place (m) of a sphere in its `attempt`-th attempt, below mostAttempts. Uniform in the region.
     [[nodiscard]] glm::dvec3 place(std::uint64_t number, unsigned attempt) const;
-    // Returns the mean mass of its spheres (kg), from the samples.
-    [[nodiscard]] double meanMass() const;
+    [[nodiscard]] double meanMass() const;  // of its spheres (kg)
     [[nodiscard]] double massOf(const Sphere& sphere) const;
 
     static constexpr unsigned mostAttempts = 8;

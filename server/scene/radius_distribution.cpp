@@ -98,7 +98,57 @@ struct Draw {
     double operator()(const SieveCurve& curve) const { return curve.draw(random); }
 };
 
+// Returns the mean of a function of a normal number z that is cut to low..high. By Simpson's rule: the error is below
+// 1e-6 for r^3 of every distribution that readNormal() and readLogNormal() accept.
+template <class Of>
+double meanOverNormal(double low, double high, Of of) {
+    constexpr double tail = 12;
+    constexpr int intervals = 2000;  // even
+    low = std::max(low, -tail);
+    high = std::min(high, tail);
+    double sum = 0;
+    double weights = 0;
+    for (int k = 0; k <= intervals; ++k) {
+        const double z = low + (high - low) * k / intervals;
+        const double simpson = k == 0 || k == intervals ? 1 : k % 2 == 1 ? 4 : 2;
+        const double weight = simpson * portableExp(-0.5 * z * z);
+        sum += weight * of(z);
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+double cubed(double r) {
+    return r * r * r;
+}
+
+// Returns ln x of a ratio of radii, with the same bits with every mathematical library.
+double naturalLog(double x) {
+    double low = -30;
+    double high = 30;
+    for (int k = 0; k < 64; ++k) {
+        const double middle = 0.5 * (low + high);
+        (portableExp(middle) < x ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
 }  // namespace
+
+double RadiusDistribution::meanCube() const {
+    if (min == max) return cubed(min);
+    if (const auto* const law = std::get_if<Normal>(&kind))
+        return meanOverNormal((min - law->mean) / law->deviation, (max - law->mean) / law->deviation,
+                              [&](double z) { return cubed(law->mean + law->deviation * z); });
+    if (const auto* const law = std::get_if<LogNormal>(&kind)) {
+        const double low = naturalLog(min / law->median) / law->deviation;
+        const double high = naturalLog(max / law->median) / law->deviation;
+        return cubed(law->median) *
+               meanOverNormal(low, high, [&](double z) { return cubed(portableExp(law->deviation * z)); });
+    }
+    if (const auto* const curve = std::get_if<SieveCurve>(&kind)) return curve->meanCube();
+    return 0.25 * (min + max) * (min * min + max * max);
+}
 
 float RadiusDistribution::draw(Random& random) const {
     if (min == max) return static_cast<float>(min);

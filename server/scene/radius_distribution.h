@@ -39,6 +39,9 @@ struct RadiusDistribution {
 
     // A constant distribution draws no random number.
     [[nodiscard]] float draw(Random& random) const;
+
+    // Returns the mean of r^3 (m^3), with the same bits with every compiler and mathematical library.
+    [[nodiscard]] double meanCube() const;
 };
 
 // Reads a single radius (m).

@@ -20,6 +20,7 @@ class SieveCurve {
 
     // Returns a radius (m).
     [[nodiscard]] double draw(Random& random) const;
+    [[nodiscard]] double meanCube() const;  // mean of r^3 (m^3)
 
   private:
     Of of_;

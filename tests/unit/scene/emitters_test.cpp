@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "scene/describe.h"
@@ -111,6 +112,21 @@ TEST(Emitters, RefuseAStreamThatIsTooDense) {
                   .find("emitters[0]: makes a stream with spheres in 1.01 of its volume"),
               0U);
     EXPECT_EQ(refusalOf(emitter(disc + R"("rate": 700, "radius": {"constant": 0.01})")), "accepted");
+}
+
+// The share of the volume follows from the mass flow alone, however wide the distribution of the radii is.
+TEST(Emitters, MeasureAStreamOfManySizes) {
+    for (const char* const radii : {R"({"logNormal": {"median": 0.004, "deviation": 0.5, "min": 0.001, "max": 0.05}})",
+                                    R"({"table": {"radii": [0.001, 0.002, 0.05], "shares": [0, 0.99, 1]}})"}) {
+        const auto refusal = [&](double share) {
+            return refusalOf(emitter(
+                fmt::format(R"("box": {{"min": [0.4, 0.4, 0.5], "max": [0.5, 0.5, 0.5]}}, "velocity": [0, 0, -1], )"
+                            R"("massFlow": {}, "radius": {})",
+                            share * 0.01 * 1000, radii)));
+        };
+        EXPECT_EQ(refusal(0.299), "accepted") << radii;
+        EXPECT_EQ(refusal(0.302).find("emitters[0]: makes a stream with spheres in 0.302 of its volume"), 0U) << radii;
+    }
 }
 
 Emitter made(const std::string& members) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "scene/check.h"
@@ -68,6 +70,49 @@ TEST(SceneRadii, StayWithinTheirLimits) {
     EXPECT_NEAR(uniformSum / draws, 0.15, 0.0005);
     // Mean of a normal distribution that is cut at -1 and +4 standard deviations: 0.12 + 0.02 phi(1) / Phi(1).
     EXPECT_NEAR(normalSum / draws, 0.12 + 0.02 * 0.24197 / 0.84134, 0.0005);
+}
+
+// The mean cube is the one of many draws, within five standard errors of these.
+TEST(SceneRadii, MeanCubeIsThatOfTheDraws) {
+    const std::vector<std::string> all = {
+        R"({"constant": 0.2})",
+        R"({"uniform": {"min": 0.1, "max": 0.3}})",
+        R"({"uniform": {"min": 1e-6, "max": 1}})",
+        R"({"normal": {"mean": 0.2, "deviation": 0.02, "min": 0.1, "max": 0.3}})",
+        R"({"normal": {"mean": 0.11, "deviation": 0.19, "min": 0.1, "max": 0.3}})",
+        R"({"normal": {"mean": 0.5, "deviation": 1e-6, "min": 0.1, "max": 0.9}})",
+        R"({"logNormal": {"median": 0.01, "deviation": 0.3, "min": 0.001, "max": 0.1}})",
+        R"({"logNormal": {"median": 0.01, "deviation": 1.2, "min": 0.001, "max": 0.1}})",
+        R"({"logNormal": {"median": 0.01, "deviation": 4, "min": 0.001, "max": 0.1}})",
+        R"({"table": {"radii": [0.1, 0.2, 0.4], "shares": [0, 0.7, 1]}})",
+        R"({"table": {"radii": [0.1, 0.2, 0.4], "shares": [0, 0.7, 1], "byMass": true}})",
+        R"({"table": {"radii": [0.01, 0.1, 0.2], "shares": [0, 0.5, 1], "byMass": true}})",
+    };
+    for (const std::string& one : all) {
+        const RadiusDistribution radii = distribution(one);
+        Random random(11);
+        double sum = 0;
+        double squares = 0;
+        for (int k = 0; k < draws; ++k) {
+            const double r = static_cast<double>(radii.draw(random));
+            sum += r * r * r;
+            squares += r * r * r * r * r * r;
+        }
+        const double mean = sum / draws;
+        const double error = std::sqrt(std::max(0.0, squares / draws - mean * mean) / draws);
+        EXPECT_NEAR(radii.meanCube(), mean, 5 * error + 1e-6 * mean) << one;
+        EXPECT_LT(error, 0.05 * mean) << "the draws tell little, " << one;
+    }
+}
+
+// Far from the limits it is that of the whole distribution.
+TEST(SceneRadii, MeanCubeFollowsTheLaw) {
+    const double normal =
+        distribution(R"({"normal": {"mean": 0.5, "deviation": 0.03, "min": 0.1, "max": 0.9}})").meanCube();
+    EXPECT_NEAR(normal, 0.5 * 0.5 * 0.5 + 3 * 0.5 * 0.03 * 0.03, 1e-9);
+    const double logNormal =
+        distribution(R"({"logNormal": {"median": 0.01, "deviation": 0.5, "min": 1e-5, "max": 10}})").meanCube();
+    EXPECT_NEAR(logNormal * 1e6, std::exp(4.5 * 0.5 * 0.5), 1e-6);
 }
 
 TEST(SceneRadii, ConstantRadiusUsesNoRandomNumbers) {
