@@ -7,6 +7,22 @@
 
 namespace spherule::sim {
 
+namespace {
+
+// Returns the largest number of places that each may get, if nobody gets more than they want and all together get at
+// most `room`.
+std::size_t fairShare(std::vector<std::size_t> wanted, std::size_t room) {
+    std::ranges::sort(wanted);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        const std::size_t each = room / (wanted.size() - k);
+        if (wanted[k] > each) return each;
+        room -= wanted[k];
+    }
+    return wanted.empty() ? 0 : wanted.back();
+}
+
+}  // namespace
+
 Emission::Emission(const scene::Scene& scene, double time) {
     for (const scene::Emitter& emitter : scene.emitters) add(emitter, time);
 }
@@ -37,11 +53,11 @@ void Emission::startAt(State& state, const scene::Emitter& emitter, double time)
     state.massDue = worked * emitter.massFlow;
 }
 
-// Adds the spheres that become due in the step, at most `room`. More of them are due in the next step.
-void Emission::makeDue(const scene::Emitter& emitter, State& state, double begin, double end, std::size_t room) {
+// Adds the spheres that become due in the step, at most MOST_BIRTH_PLACES. More of them are due in the next step.
+void Emission::makeDue(const scene::Emitter& emitter, State& state, double begin, double end) {
     if (state.choked) return;
     const double worked = emitter.workedUntil(end);
-    for (std::size_t made = 0; made < room; ++made) {
+    for (std::size_t made = 0; made < MOST_BIRTH_PLACES; ++made) {
         if (emitter.total && state.born.spheres() + state.waiting.size() >= *emitter.total) return;
         const double due = emitter.rate > 0 ? static_cast<double>(state.next) / emitter.rate
                                             : state.massDue / emitter.massFlow;  // s of work
@@ -54,29 +70,49 @@ void Emission::makeDue(const scene::Emitter& emitter, State& state, double begin
     }
 }
 
-const std::vector<Emission::Birth>& Emission::attempt(const scene::Scene& scene, double begin, double end) {
-    births_.clear();
+// Chooses the spheres to attempt: first among those that have become due in this step, then among the others.
+void Emission::choose() {
     std::size_t room = MOST_BIRTH_PLACES;
-    for (State& state : emitters_) room -= std::min(room, state.waiting.size());
-    for (std::size_t k = 0; k < emitters_.size(); ++k) {
-        State& state = emitters_[k];
-        const std::size_t waited = state.waiting.size();
-        makeDue(scene.emitters[k], state, begin, end, room);
-        room -= state.waiting.size() - waited;
-        for (const Waiting& one : state.waiting) {
-            Birth birth{.sphere = one.sphere, .emitter = static_cast<std::uint32_t>(k)};
-            // They may have got other numbers since it became due.
-            birth.sphere.group = scene.emitters[k].group;
-            birth.sphere.material = scene.emitters[k].material;
-            const glm::dvec3 place = scene.emitters[k].place(one.number, one.attempts);
-            const glm::dvec3 velocity(birth.sphere.velocity);
-            const scene::Body body{static_cast<double>(one.sphere.radius), scene.emitters[k].massOf(one.sphere)};
-            const glm::dvec3 gained = scene.forces.accelerationAt(place, body) * one.flight;
-            birth.sphere.position = place + (velocity + 0.5 * gained) * one.flight;
-            birth.sphere.velocity = glm::vec3(velocity + gained);
-            births_.push_back(birth);
+    for (const bool fresh : {true, false}) {
+        const auto isOne = [fresh](const Waiting& one) { return (one.attempts == 0) == fresh; };
+        std::vector<std::size_t> wanted;
+        for (const State& state : emitters_)
+            wanted.push_back(static_cast<std::size_t>(std::ranges::count_if(state.waiting, isOne)));
+        const std::size_t each = fairShare(wanted, room);
+        for (State& state : emitters_) {
+            std::size_t left = std::min(each, room);
+            for (Waiting& one : state.waiting) {
+                if (!isOne(one)) continue;
+                one.attempted = left > 0;
+                left -= one.attempted ? 1 : 0;
+                room -= one.attempted ? 1 : 0;
+            }
         }
     }
+}
+
+// Returns the sphere where its present attempt puts it.
+scene::Sphere Emission::birthOf(const Waiting& one, const scene::Emitter& emitter, const scene::Scene& scene) {
+    scene::Sphere birth = one.sphere;
+    // They may have got other numbers since it became due.
+    birth.group = emitter.group;
+    birth.material = emitter.material;
+    const glm::dvec3 place = emitter.place(one.number, one.attempts);
+    const glm::dvec3 velocity(birth.velocity);
+    const scene::Body body{static_cast<double>(one.sphere.radius), emitter.massOf(one.sphere)};
+    const glm::dvec3 gained = scene.forces.accelerationAt(place, body) * one.flight;
+    birth.position = place + (velocity + 0.5 * gained) * one.flight;
+    birth.velocity = glm::vec3(velocity + gained);
+    return birth;
+}
+
+const std::vector<scene::Sphere>& Emission::attempt(const scene::Scene& scene, double begin, double end) {
+    for (std::size_t k = 0; k < emitters_.size(); ++k) makeDue(scene.emitters[k], emitters_[k], begin, end);
+    choose();
+    births_.clear();
+    for (std::size_t k = 0; k < emitters_.size(); ++k)
+        for (const Waiting& one : emitters_[k].waiting)
+            if (one.attempted) births_.push_back(birthOf(one, scene.emitters[k], scene));
     return births_;
 }
 
@@ -86,9 +122,9 @@ void Emission::settle(const scene::Scene& scene, const std::vector<bool>& happen
         State& state = emitters_[k];
         std::uint64_t born = 0;
         double mass = 0;
-        const bool tried = !state.waiting.empty();
+        const bool tried = std::ranges::any_of(state.waiting, &Waiting::attempted);
         std::erase_if(state.waiting, [&](Waiting& one) {
-            if (happened[birth++]) {
+            if (one.attempted && happened[birth++]) {
                 ++born;
                 mass += scene.emitters[k].massOf(one.sphere);
                 return true;

@@ -24,16 +24,12 @@ class Emission {
     void replace(std::size_t number, const scene::Emitter& emitter, double time);
     void remove(std::size_t number);
 
-    // A sphere that is due, at the place where its present attempt puts it.
-    struct Birth {
-        scene::Sphere sphere;
-        std::uint32_t emitter = 0;
-    };
-    // Returns the births to attempt at the end of a step from `begin` to `end` (s simulated), at most
-    // MOST_BIRTH_PLACES: those that wait, then those that have become due. Call settle() next.
-    const std::vector<Birth>& attempt(const scene::Scene& scene, double begin, double end);
-    // Tells which of these births have happened, in their order. The others wait for the next step, or count as
-    // blocked after their last attempt. `time`: of the births (s simulated).
+    // Returns the spheres to make at the end of a step from `begin` to `end` (s simulated), where their present
+    // attempts put them, at most MOST_BIRTH_PLACES. If more wait, those that have become due in this step come first.
+    // Of each kind, every emitter gets as many as another one, or all of its own. Call settle() next.
+    const std::vector<scene::Sphere>& attempt(const scene::Scene& scene, double begin, double end);
+    // Tells which of these spheres have been made, in their order. All others wait for the next step, or count as
+    // blocked if they have waited for mostAttempts steps. `time`: of the births (s simulated).
     void settle(const scene::Scene& scene, const std::vector<bool>& happened, double time);
 
     [[nodiscard]] std::size_t emitters() const { return emitters_.size(); }
@@ -50,8 +46,9 @@ class Emission {
     struct Waiting {
         scene::Sphere sphere;
         std::uint64_t number = 0;
-        double flight = 0;  // s from the time when it was due to the end of that step
-        unsigned attempts = 0;
+        double flight = 0;       // s from the time when it was due to the end of that step
+        unsigned attempts = 0;   // steps that it has waited
+        bool attempted = false;  // in this step
     };
     struct State {
         std::uint64_t next = 0;  // number of the next sphere to become due
@@ -65,10 +62,12 @@ class Emission {
     static bool hasEnded(const scene::Emitter& emitter, const State& state);
     static void followChoke(const scene::Emitter& emitter, State& state, bool free, double time);
     static void startAt(State& state, const scene::Emitter& emitter, double time);
-    static void makeDue(const scene::Emitter& emitter, State& state, double begin, double end, std::size_t room);
+    static void makeDue(const scene::Emitter& emitter, State& state, double begin, double end);
+    static scene::Sphere birthOf(const Waiting& one, const scene::Emitter& emitter, const scene::Scene& scene);
+    void choose();
 
     std::vector<State> emitters_;
-    std::vector<Birth> births_;
+    std::vector<scene::Sphere> births_;
 };
 
 }  // namespace spherule::sim

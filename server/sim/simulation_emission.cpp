@@ -28,11 +28,8 @@ void wrap(glm::dvec3& position, const scene::Bounds& bounds) {
 
 // Makes the spheres that are due at the end of a step.
 void Simulation::emit() {
-    std::vector<scene::Sphere> births;
-    for (const Emission::Birth& birth : flows_.emission.attempt(scene_, time() - scene_.step, time())) {
-        births.push_back(birth.sphere);
-        wrap(births.back().position, scene_.bounds);
-    }
+    std::vector<scene::Sphere> births = flows_.emission.attempt(scene_, time() - scene_.step, time());
+    for (scene::Sphere& birth : births) wrap(birth.position, scene_.bounds);
     if (births.empty()) return;
     std::vector<bool> free = freePlaces(births);
     const std::uint64_t pairsEach = std::max<std::uint64_t>(1, scene_.obstacles.size());

@@ -31,16 +31,16 @@ void advance(Emission& emission, const scene::Scene& scene, int first, int steps
     for (int k = first; k < first + steps; ++k) {
         const auto& births = emission.attempt(scene, k * scene.step, (k + 1) * scene.step);
         std::vector<bool> happened;
-        for (const Emission::Birth& birth : births) happened.push_back(happens(birth));
+        for (const scene::Sphere& birth : births) happened.push_back(happens(birth));
         emission.settle(scene, happened, (k + 1) * scene.step);
     }
 }
 
-bool always(const Emission::Birth& /*birth*/) {
+bool always(const scene::Sphere& /*birth*/) {
     return true;
 }
 
-bool never(const Emission::Birth& /*birth*/) {
+bool never(const scene::Sphere& /*birth*/) {
     return false;
 }
 
@@ -94,10 +94,10 @@ TEST(Emission, TriesASphereInOtherPlacesAndThenCountsItAsBlocked) {
     Emission emission(scene, 0);
     std::vector<glm::dvec3> places;
     float radius = 0;
-    advance(emission, scene, 0, 7, [&](const Emission::Birth& birth) {
-        places.push_back(birth.sphere.position);
-        EXPECT_EQ(birth.sphere.radius, places.size() == 1 ? birth.sphere.radius : radius) << "the same sphere";
-        radius = birth.sphere.radius;
+    advance(emission, scene, 0, 7, [&](const scene::Sphere& birth) {
+        places.push_back(birth.position);
+        EXPECT_EQ(birth.radius, places.size() == 1 ? birth.radius : radius) << "the same sphere";
+        radius = birth.radius;
         return false;
     });
     ASSERT_EQ(places.size(), 7U);
@@ -137,14 +137,66 @@ TEST(Emission, EndsWhenItIsChoked) {
     }
 }
 
-// While births are blocked, those that wait are bounded.
-TEST(Emission, KeepsFewSpheresWaiting) {
-    const scene::Scene scene = withEmitter(R"("rate": 240000)");
+std::string emitterWith(const std::string& members) {
+    return R"({"sphere": {"centre": [0.5, 0.5, 0.5], "radius": 0.2}, "radius": {"uniform": {"min": 0.001, "max": )"
+           R"(0.002}}, )" +
+           members + "}";
+}
+
+// Each sphere that has become due was born, waits, or counts as blocked. None is left for later, however many are.
+TEST(Emission, CountsAllThatHaveBecomeDue) {
+    scene::Random random(5);
+    for (int k = 0; k < 30; ++k) {
+        const double rate = k == 0 ? 240'000 : std::exp2(random.uniform(4, 17.8));
+        const scene::Scene scene = withEmitter(fmt::format(R"("rate": {}, "schedule": [{{"to": 0.3}}])", rate));
+        Emission emission(scene, 0);
+        for (int step = 0; step < 30; ++step) {
+            const bool free = random.uniform() < 0.3;
+            advance(emission, scene, step, 1, free ? always : never);
+            const auto counts = emission.counts(scene, 0);
+            const auto due = static_cast<std::uint64_t>(
+                std::ceil(scene.emitters[0].workedUntil((step + 1) * scene.step) * rate - 1e-6));
+            EXPECT_EQ(counts.born.spheres() + counts.waiting + counts.blocked, due) << rate;
+            EXPECT_LE(static_cast<double>(counts.waiting), 8 * (rate * scene.step + 1)) << rate;
+        }
+        EXPECT_EQ(emission.counts(scene, 0).waiting, 0U) << "the schedule has ended, rate " << rate;
+    }
+}
+
+// An emitter without free places takes no places from others.
+TEST(Emission, LetsABlockedEmitterHinderNoOther) {
+    for (const double blocked : {60.0, 40'000.0, 200'000.0, 239'000.0}) {
+        const scene::Scene scene = sceneWith(
+            R"("gravity": [0, 0, 0], "emitters": [)" + emitterWith(fmt::format(R"("rate": {})", blocked)) + ", " +
+            emitterWith(R"("rate": 600)") + ", " + emitterWith(R"("massFlow": 0.001, "begin": 0.5)") + "]");
+        const std::uint16_t ofBlocked = scene.emitters[0].group;
+        Emission emission(scene, 0);
+        advance(emission, scene, 0, 60, [&](const scene::Sphere& birth) { return birth.group != ofBlocked; });
+        EXPECT_EQ(emission.counts(scene, 0).born.spheres(), 0U);
+        EXPECT_EQ(emission.counts(scene, 1).born.spheres(), 600U) << blocked;
+        EXPECT_EQ(emission.counts(scene, 1).blocked, 0U) << blocked;
+        const double largest = 4.0 / 3 * 3.14159 * 0.002 * 0.002 * 0.002 * 1000;
+        EXPECT_NEAR(emission.counts(scene, 2).born.mass(), 0.0005, largest) << blocked;
+    }
+}
+
+// Emitters without free places share the places to try: each sphere that one of them makes has been tried.
+TEST(Emission, SharesThePlacesToTry) {
+    const scene::Scene scene =
+        sceneWith(R"("gravity": [0, 0, 0], "emitters": [)" + emitterWith(R"("rate": 120000)") + ", " +
+                  emitterWith(R"("rate": 100000)") + ", " + emitterWith(R"("rate": 3000)") + "]");
     Emission emission(scene, 0);
-    advance(emission, scene, 0, 50, never);
-    EXPECT_LE(emission.counts(scene, 0).waiting, MOST_BIRTH_PLACES);
-    EXPECT_GT(emission.counts(scene, 0).blocked, 0U);
-    EXPECT_EQ(emission.counts(scene, 0).born.spheres(), 0U);
+    for (int step = 0; step < 40; ++step) {
+        const auto& births = emission.attempt(scene, step * scene.step, (step + 1) * scene.step);
+        ASSERT_LE(births.size(), MOST_BIRTH_PLACES);
+        std::vector<std::size_t> tried(scene.groups.size());
+        for (const scene::Sphere& birth : births) ++tried[birth.group];
+        const std::uint16_t small = scene.emitters[2].group;
+        if (step > 10) {
+            EXPECT_GE(tried[small], 150U) << "50 new ones, and a share of those that wait";
+        }
+        emission.settle(scene, std::vector<bool>(births.size()), (step + 1) * scene.step);
+    }
 }
 
 // A sphere is where its flight since its time has taken it: the stream has no gaps between steps.
@@ -159,8 +211,8 @@ TEST(Emission, MakesAContinuousStream) {
     for (std::size_t k = births.size() - 100; k < births.size(); ++k) {
         const double flight = end - static_cast<double>(k) / 6000;
         if (flight > scene.step) continue;  // due in an earlier step
-        EXPECT_NEAR(births[k].sphere.position.z, 0.5 + 3 * flight - 5 * flight * flight, 1e-9);
-        EXPECT_NEAR(births[k].sphere.velocity.z, 3 - 10 * flight, 1e-6);
+        EXPECT_NEAR(births[k].position.z, 0.5 + 3 * flight - 5 * flight * flight, 1e-9);
+        EXPECT_NEAR(births[k].velocity.z, 3 - 10 * flight, 1e-6);
     }
 }
 
