@@ -34,7 +34,7 @@ double SieveCurve::meanCube() const {
     for (std::size_t i = 1; i < radii_.size(); ++i) {
         const double a = radii_[i - 1];
         const double b = radii_[i];
-        // Of numbers per radius that are constant, or fall with r^-3.
+        // The number per radius is constant, or falls with r^-3.
         const double cube = of_ == Of::Number ? 0.25 * (a + b) * (a * a + b * b) : 2 * a * (a / (a + b)) * b * b;
         sum += (numbers_[i] - numbers_[i - 1]) / numbers_.back() * cube;
     }

@@ -26,7 +26,7 @@ class Emission {
 
     // Returns the spheres to make at the end of a step from `begin` to `end` (s simulated), where their present
     // attempts put them, at most MOST_BIRTH_PLACES. If more wait, those that have become due in this step come first.
-    // Of each kind, every emitter gets as many as another one, or all of its own. Call settle() next.
+    // Every emitter gets as many places as another one, or as many as it wants. Call settle() next.
     const std::vector<scene::Sphere>& attempt(const scene::Scene& scene, double begin, double end);
     // Tells which of these spheres have been made, in their order. All others wait for the next step, or count as
     // blocked if they have waited for mostAttempts steps. `time`: of the births (s simulated).

@@ -105,7 +105,7 @@ TEST(SceneRadii, MeanCubeIsThatOfTheDraws) {
     }
 }
 
-// Far from the limits it is that of the whole distribution.
+// Limits far from the mean do not change it.
 TEST(SceneRadii, MeanCubeFollowsTheLaw) {
     const double normal =
         distribution(R"({"normal": {"mean": 0.5, "deviation": 0.03, "min": 0.1, "max": 0.9}})").meanCube();
