@@ -146,8 +146,8 @@ std::string emitterWith(const std::string& members) {
 // Each sphere that has become due was born, waits, or counts as blocked. None is left for later, however many are.
 TEST(Emission, CountsAllThatHaveBecomeDue) {
     scene::Random random(5);
-    for (int k = 0; k < 30; ++k) {
-        const double rate = k == 0 ? 240'000 : std::exp2(random.uniform(4, 17.8));
+    for (int k = 0; k < 12; ++k) {
+        const double rate = k == 0 ? 240'000 : std::exp2(random.uniform(4, 16));
         const scene::Scene scene = withEmitter(fmt::format(R"("rate": {}, "schedule": [{{"to": 0.3}}])", rate));
         Emission emission(scene, 0);
         for (int step = 0; step < 30; ++step) {
@@ -165,18 +165,18 @@ TEST(Emission, CountsAllThatHaveBecomeDue) {
 
 // An emitter without free places takes no places from others.
 TEST(Emission, LetsABlockedEmitterHinderNoOther) {
-    for (const double blocked : {60.0, 40'000.0, 200'000.0, 239'000.0}) {
+    for (const double blocked : {60.0, 40'000.0, 239'000.0}) {
         const scene::Scene scene = sceneWith(
             R"("gravity": [0, 0, 0], "emitters": [)" + emitterWith(fmt::format(R"("rate": {})", blocked)) + ", " +
-            emitterWith(R"("rate": 600)") + ", " + emitterWith(R"("massFlow": 0.001, "begin": 0.5)") + "]");
+            emitterWith(R"("rate": 600)") + ", " + emitterWith(R"("massFlow": 0.001, "begin": 0.2)") + "]");
         const std::uint16_t ofBlocked = scene.emitters[0].group;
         Emission emission(scene, 0);
-        advance(emission, scene, 0, 60, [&](const scene::Sphere& birth) { return birth.group != ofBlocked; });
+        advance(emission, scene, 0, 24, [&](const scene::Sphere& birth) { return birth.group != ofBlocked; });
         EXPECT_EQ(emission.counts(scene, 0).born.spheres(), 0U);
-        EXPECT_EQ(emission.counts(scene, 1).born.spheres(), 600U) << blocked;
+        EXPECT_EQ(emission.counts(scene, 1).born.spheres(), 240U) << blocked;
         EXPECT_EQ(emission.counts(scene, 1).blocked, 0U) << blocked;
         const double largest = 4.0 / 3 * 3.14159 * 0.002 * 0.002 * 0.002 * 1000;
-        EXPECT_NEAR(emission.counts(scene, 2).born.mass(), 0.0005, largest) << blocked;
+        EXPECT_NEAR(emission.counts(scene, 2).born.mass(), 0.0002, largest) << blocked;
     }
 }
 
@@ -186,7 +186,7 @@ TEST(Emission, SharesThePlacesToTry) {
         sceneWith(R"("gravity": [0, 0, 0], "emitters": [)" + emitterWith(R"("rate": 120000)") + ", " +
                   emitterWith(R"("rate": 100000)") + ", " + emitterWith(R"("rate": 3000)") + "]");
     Emission emission(scene, 0);
-    for (int step = 0; step < 40; ++step) {
+    for (int step = 0; step < 20; ++step) {
         const auto& births = emission.attempt(scene, step * scene.step, (step + 1) * scene.step);
         ASSERT_LE(births.size(), MOST_BIRTH_PLACES);
         std::vector<std::size_t> tried(scene.groups.size());
