@@ -44,11 +44,20 @@ std::string withoutControls(std::string_view text) {
 }
 
 std::string lineAndColumn(std::string_view text, std::size_t offset) {
-    const std::string_view before = text.substr(0, std::min(offset, text.size()));
-    const auto line = 1 + std::ranges::count(before, '\n');
-    const std::string_view own = before.substr(before.rfind('\n') + 1);  // npos + 1 is 0
-    const auto column = 1 + std::ranges::count_if(own, [](char c) { return !continuesCharacter(c); });
-    return fmt::format(":{}:{}", line, column);
+    return LineCounter(text).at(offset);
+}
+
+std::string LineCounter::at(std::size_t offset) {
+    if (offset < offset_) *this = LineCounter(text_);
+    for (const std::size_t end = std::min(offset, text_.size()); offset_ < end; ++offset_) {
+        if (text_[offset_] == '\n') {
+            ++line_;
+            column_ = 1;
+        } else if (!continuesCharacter(text_[offset_])) {
+            ++column_;
+        }
+    }
+    return fmt::format(":{}:{}", line_, column_);
 }
 
 }  // namespace spherule

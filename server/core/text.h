@@ -19,4 +19,18 @@ std::string withoutControls(std::string_view text);
 // Returns ":LINE:COLUMN" of the byte `offset` in UTF-8, both from 1. Columns count characters.
 std::string lineAndColumn(std::string_view text, std::size_t offset);
 
+// Gives places of a text as lineAndColumn() does. Offsets in ascending order cost one pass through the text.
+class LineCounter {
+  public:
+    explicit LineCounter(std::string_view text) : text_(text) {}
+
+    std::string at(std::size_t offset);
+
+  private:
+    std::string_view text_;
+    std::size_t offset_ = 0;
+    std::size_t line_ = 1;
+    std::size_t column_ = 1;
+};
+
 }  // namespace spherule

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/suggestion.h"
-
 namespace spherule {
 namespace {
 
@@ -18,14 +16,10 @@ TEST(Text, PlacesCountLinesAndCharacters) {
     EXPECT_EQ(lineAndColumn("", 0), ":1:1");
 }
 
-TEST(Suggestion, IsTheNearestName) {
-    const std::vector<std::string> names{"step", "sleep", "spin"};
-    EXPECT_EQ(suggestionFor("stepp", names), "step");
-    EXPECT_EQ(suggestionFor("seep", names), "step") << "the first of equally near ones";
-    EXPECT_EQ(suggestionFor("gravity", names), std::nullopt);
-    EXPECT_EQ(suggestionFor("", names), std::nullopt);
-    EXPECT_EQ(suggestionFor("x", {}), std::nullopt);
-    EXPECT_EQ(suggestionFor(std::string(1000, 's'), names), std::nullopt);
+TEST(Text, PlacesInAnyOrderAreTheSame) {
+    const std::string text = "a\nm² b\n";
+    LineCounter lines(text);
+    for (const std::size_t offset : {0U, 3U, 3U, 7U, 99U, 2U}) EXPECT_EQ(lines.at(offset), lineAndColumn(text, offset));
 }
 
 }  // namespace
