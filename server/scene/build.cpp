@@ -47,6 +47,8 @@ void append(Check& check, std::vector<Sphere>& all, std::vector<Sphere> spheres)
     all.insert(all.end(), spheres.begin(), spheres.end());
 }
 
+constexpr std::size_t mostJammed = 3;  // fills without room, which take the longest
+
 void readGroups(Check& check, const v1::Scene& message, const std::optional<std::filesystem::path>& directory,
                 const Overrides& overrides, Scene& scene) {
     if (static_cast<std::uint32_t>(message.groups_size()) > maxGroups)
@@ -55,37 +57,47 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
     double largest = smallestRadius;
     for (const v1::Group& group : message.groups()) largest = std::max(largest, largestRadiusOf(group));
     Occupancy occupancy(largest, scene.bounds);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(message.groups_size()) && check.ok(); ++i) {
+    std::size_t jammed = 0;
+    const auto count = static_cast<std::size_t>(message.groups_size());
+    check.entries("groups", count, [&](std::size_t i, const std::string& field) {
         const v1::Group& group = message.groups(static_cast<int>(i));
         const auto first = static_cast<std::uint32_t>(scene.spheres.size());
         std::vector<Sphere> spheres = readGroup(check, group, scene,
-                                                {.field = at("groups", i),
+                                                {.field = field,
                                                  .stream = i,
                                                  .seed = overrides.seed,
                                                  .directory = directory,
                                                  .taken = scene.spheres,
                                                  .occupancy = occupancy,
-                                                 .room = maxSpheres - first});
-        scene.groups.push_back(groupOf(spheres, group.name(), readLook(check, group, at("groups", i))));
-        append(check, scene.spheres, std::move(spheres));
-    }
+                                                 .room = maxSpheres - first,
+                                                 .placesFills = jammed < mostJammed});
+        if (group.has_fill() && !check.ok() && check.lastCause() == Cause::NoRoom) ++jammed;
+        scene.groups.push_back(groupOf(spheres, group.name(), readLook(check, group, field)));
+        // The occupancy has the spheres of a fill already.
+        if (check.ok() || group.has_fill()) append(check, scene.spheres, std::move(spheres));
+    });
 }
 
 Box readRegion(Check& check, const v1::Box& message, std::string_view field) {
-    if (message.hollow()) check.refuse(at(field, "hollow"), "is true; only the boxes of obstacles may be hollow");
+    check.part([&] {
+        if (message.hollow()) check.refuse(at(field, "hollow"), "is true; only the boxes of obstacles may be hollow");
+    });
     return check.box(message.min(), message.max(), field);
 }
 
 std::vector<Box> readSinks(Check& check, const v1::Scene& message) {
     std::vector<Box> sinks;
-    if (static_cast<std::size_t>(message.sinks_size()) > maxSinks)
-        check.refuse("sinks", fmt::format("has {} entries, must have at most {}", message.sinks_size(), maxSinks));
-    for (int i = 0; i < message.sinks_size() && check.ok(); ++i) {
-        const std::string field = at(at("sinks", static_cast<std::size_t>(i)), "region");
-        const v1::Box& region = message.sinks(i).region();
-        if (!message.sinks(i).has_region()) check.refuse(field, "is missing; give min and max");
-        sinks.push_back(readRegion(check, region, field));
+    const auto count = static_cast<std::size_t>(message.sinks_size());
+    if (count > maxSinks) {
+        check.refuse("sinks", fmt::format("has {} entries, must have at most {}", count, maxSinks));
+        return sinks;
     }
+    check.entries("sinks", count, [&](std::size_t k, const std::string& entry) {
+        const std::string field = at(entry, "region");
+        const v1::Sink& sink = message.sinks(static_cast<int>(k));
+        if (!sink.has_region()) return check.refuse(field, "is missing; give min and max");
+        sinks.push_back(readRegion(check, sink.region(), field));
+    });
     return sinks;
 }
 
@@ -98,48 +110,89 @@ Sleep readSleep(Check& check, const v1::Sleep& message, bool noSleep) {
     return sleep;
 }
 
+void readText(Check& check, const std::string& text, std::size_t longest, const char* field) {
+    check.part([&] {
+        if (text.size() > longest)
+            check.refuse(field, fmt::format("is {} bytes long, must be at most {}", text.size(), longest));
+    });
+}
+
+// Reads the parts that depend on no others but the materials.
+void readOwnParts(Check& check, const v1::Scene& message, const Overrides& overrides, Scene& scene) {
+    readText(check, message.name(), longestName, "name");
+    scene.name = message.name();
+    scene.description = message.description();
+    readText(check, message.what_to_try(), longestAdvice, "whatToTry");
+    scene.whatToTry = message.what_to_try();
+    scene.forces.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
+    check.part([&] { scene.forces.fields = readFields(check, message); });
+    check.part([&] { scene.materials = readMaterials(check, message.materials()); });
+    check.part([&] { scene.pairs = readPairs(check, message.pairs(), scene.materials); });
+    if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");
+    if (message.has_sphere_contacts()) scene.sphereContacts = message.sphere_contacts();
+    scene.contactSums = message.contact_sums() || overrides.contactSums;
+    check.part([&] { scene.sinks = readSinks(check, message); });
+    scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
+    if (message.has_light()) check.part([&] { scene.light = readLight(check, message.light()); });
+}
+
+// Reads what is in the bounds.
+void readContent(Check& check, const v1::Scene& message, const std::optional<std::filesystem::path>& directory,
+                 const Overrides& overrides, Scene& scene) {
+    const bool known = areBoundsKnown(check);
+    const glm::dvec3 sides = scene.bounds.max - scene.bounds.min;
+    check.part([&] {
+        scene.obstacles = readObstacles(check, message.obstacles(), scene.materials,
+                                        {.directory = directory, .longestSide = std::max({sides.x, sides.y, sides.z})});
+    });
+    if (known) check.part([&] { scene.camera = readCamera(check, message.camera(), scene.bounds); });
+    check.part([&] { readGroups(check, message, directory, overrides, scene); });
+    check.part([&] { readEmitters(check, message, overrides.seed, scene); });
+}
+
+// Checks whether the parts of a scene without errors fit each other, and chooses the substeps.
+void checkTogether(Check& check, const v1::Scene& message, const Overrides& overrides, Scene& scene) {
+    if (const double smallest = smallestRadiusIn(scene); smallest > 0)
+        checkResolution(check, scene, smallest, "bounds");
+    if (check.ok())
+        if (const auto fits = checkPeriodicAxes(scene); !fits) check.refuse(fits.error());
+    if (check.ok()) readQuality(check, message.quality(), overrides, scene);
+    if (check.ok()) checkEmitterSpeeds(check, scene);
+}
+
+Scene readScene(Check& check, const std::optional<std::filesystem::path>& directory, const v1::Scene& message,
+                const Overrides& overrides) {
+    Scene scene;
+    readOwnParts(check, message, overrides, scene);
+    check.part([&] {
+        if (!message.has_bounds()) return check.refuse("bounds", "are missing; give min and max");
+        scene.bounds = readBounds(check, message.bounds(), scene.materials, "bounds");
+    });
+    readContent(check, message, directory, overrides, scene);
+    if (check.isRight("gravity") && check.isRight("bounds.periodic"))
+        check.part([&] {
+            if (const auto rests = checkLiquids(scene); !rests) check.refuse(rests.error());
+        });
+    if (check.isRight()) checkTogether(check, message, overrides, scene);
+    return scene;
+}
+
 }  // namespace
 
 Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, const v1::Scene& message,
                       const Overrides& overrides, Progress* progress) {
     Check check(progress);
-    Scene scene;
-    if (message.name().size() > longestName)
-        check.refuse("name", fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
-    scene.name = message.name();
-    scene.description = message.description();
-    if (message.what_to_try().size() > longestAdvice)
-        check.refuse("whatToTry",
-                     fmt::format("is {} bytes long, must be at most {}", message.what_to_try().size(), longestAdvice));
-    scene.whatToTry = message.what_to_try();
-    scene.forces.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
-    scene.forces.fields = readFields(check, message);
-    scene.materials = readMaterials(check, message.materials());
-    if (check.ok()) scene.pairs = readPairs(check, message.pairs(), scene.materials);
-    if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");
-    if (message.has_sphere_contacts()) scene.sphereContacts = message.sphere_contacts();
-    scene.contactSums = message.contact_sums() || overrides.contactSums;
-    scene.sinks = readSinks(check, message);
-    scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
-    if (!message.has_bounds()) check.refuse("bounds", "are missing; give min and max");
-    scene.bounds = readBounds(check, message.bounds(), scene.materials, "bounds");
-    const glm::dvec3 sides = scene.bounds.max - scene.bounds.min;
-    scene.obstacles = readObstacles(check, message.obstacles(), scene.materials,
-                                    {.directory = directory, .longestSide = std::max({sides.x, sides.y, sides.z})});
-    if (check.ok()) scene.camera = readCamera(check, message.camera(), scene.bounds);
-    if (message.has_light()) scene.light = readLight(check, message.light());
-    if (check.ok()) readGroups(check, message, directory, overrides, scene);
-    if (check.ok()) readEmitters(check, message, overrides.seed, scene);
-    if (const double smallest = smallestRadiusIn(scene); check.ok() && smallest > 0)
-        checkResolution(check, scene, smallest, "bounds");
-    if (check.ok())
-        if (const auto fits = checkPeriodicAxes(scene); !fits) check.refuse(fits.error());
-    if (check.ok())
-        if (const auto rests = checkLiquids(scene); !rests) check.refuse(rests.error());
-    if (check.ok()) readQuality(check, message.quality(), overrides, scene);
-    if (check.ok()) checkEmitterSpeeds(check, scene);
+    Scene scene = readScene(check, directory, message, overrides);
     if (!check.ok()) return check.error();
     return scene;
+}
+
+std::vector<Error> errorsIn(const std::filesystem::path& directory, const v1::Scene& message,
+                            std::vector<std::string> doubts) {
+    Check check(nullptr, Check::Keep::All);
+    for (std::string& doubt : doubts) check.doubt(std::move(doubt));
+    readScene(check, directory, message, {});
+    return check.errors();
 }
 
 Result<Scene> build(const v1::Scene& message, const Overrides& overrides, Progress* progress) {

@@ -68,17 +68,28 @@ EmissionRegion readRegion(Check& check, const v1::Emitter& message, const std::s
     return {};
 }
 
+void readFlow(Check& check, const v1::Emitter& message, const std::string& field, Emitter& emitter) {
+    if (message.has_mass_flow())
+        emitter.massFlow = check.upTo(message.mass_flow(), largestComponent, at(field, "massFlow"), " kg/s");
+    else if (message.has_rate())
+        emitter.rate = check.upTo(message.rate(), mostRate, at(field, "rate"), " spheres per second");
+    else
+        check.refuse(field, "has no flow, must have rate or massFlow");
+}
+
 void readSchedule(Check& check, const v1::Emitter& message, const std::string& field, Emitter& emitter) {
     emitter.begin = check.within(message.begin(), -largestComponent, largestComponent, at(field, "begin"), " s");
+    const std::string schedule = at(field, "schedule");
     if (message.schedule_size() > mostSpans)
-        check.refuse(at(field, "schedule"),
-                     fmt::format("has {} entries, must have at most {}", message.schedule_size(), mostSpans));
+        return check.refuse(schedule,
+                            fmt::format("has {} entries, must have at most {}", message.schedule_size(), mostSpans));
     double end = 0;
-    for (int k = 0; k < message.schedule_size() && check.ok(); ++k) {
-        const std::string place = at(at(field, "schedule"), static_cast<std::size_t>(k));
-        const Span span{check.within(message.schedule(k).from(), 0, largestComponent, at(place, "from"), " s"),
-                        check.within(message.schedule(k).to(), shortestSpan, largestComponent, at(place, "to"), " s")};
-        if (check.ok() && span.from < end)
+    check.entries(schedule, static_cast<std::size_t>(message.schedule_size()), [&](std::size_t k, const auto& place) {
+        const v1::Span& from = message.schedule(static_cast<int>(k));
+        const Span span{check.within(from.from(), 0, largestComponent, at(place, "from"), " s"),
+                        check.within(from.to(), shortestSpan, largestComponent, at(place, "to"), " s")};
+        if (!check.ok()) return;
+        if (span.from < end)
             check.refuse(
                 at(place, "from"),
                 fmt::format("is {} s, but the time before it ends at {} s; give them in order", span.from, end));
@@ -86,10 +97,10 @@ void readSchedule(Check& check, const v1::Emitter& message, const std::string& f
             check.refuse(at(place, "to"), fmt::format("is {} s, must be at least {} s after from, which is {} s",
                                                       span.to, shortestSpan, span.from));
         emitter.schedule.push_back(span);
-        end = span.to;
-    }
+        end = std::max(end, span.to);
+    });
     emitter.repeat = check.within(message.repeat(), 0, largestComponent, at(field, "repeat"), " s");
-    if (!check.ok() || emitter.repeat == 0) return;
+    if (!check.ok() || emitter.repeat == 0 || check.isDoubtful(schedule)) return;
     if (emitter.repeat < shortestSpan)
         check.refuse(at(field, "repeat"),
                      fmt::format("is {} s, must be 0 or at least {} s", emitter.repeat, shortestSpan));
@@ -189,33 +200,30 @@ Emitter readEmitter(Check& check, const v1::Emitter& message, const EmitterConte
     emitter.origin = context.origin;
     checkName(check, message.name(), at(field, "name"));
     emitter.name = message.name();
-    emitter.region = readRegion(check, message, field);
-    if (message.has_mass_flow())
-        emitter.massFlow = check.upTo(message.mass_flow(), largestComponent, at(field, "massFlow"), " kg/s");
-    else if (message.has_rate())
-        emitter.rate = check.upTo(message.rate(), mostRate, at(field, "rate"), " spheres per second");
-    else
-        check.refuse(field, "has no flow, must have rate or massFlow");
-    if (message.has_radius())
+    check.part([&] { emitter.region = readRegion(check, message, field); });
+    check.part([&] { readFlow(check, message, field, emitter); });
+    check.part([&] {
+        if (!message.has_radius()) return check.refuse(at(field, "radius"), "is missing");
         emitter.radii = readRadiusDistribution(check, message.radius(), at(field, "radius"));
-    else
-        check.refuse(at(field, "radius"), "is missing");
+    });
     emitter.material = materialNamed(check, message.material(), scene.materials, at(field, "material"));
     emitter.velocity = check.vectorOr(message.velocity(), {}, at(field, "velocity"));
     emitter.velocitySpread =
         check.within(message.velocity_spread(), 0, largestComponent, at(field, "velocitySpread"), " m/s");
     emitter.spin = check.vectorOr(message.spin(), {}, at(field, "spin"));
     if (message.has_total()) {
-        if (message.total() == 0) check.refuse(at(field, "total"), "is 0, must be at least 1");
+        check.part([&] {
+            if (message.total() == 0) check.refuse(at(field, "total"), "is 0, must be at least 1");
+        });
         emitter.total = message.total();
     }
     if (message.has_until_choked())
         emitter.untilChoked = check.upTo(message.until_choked(), largestComponent, at(field, "untilChoked"), " s");
     if (message.has_seed()) emitter.seed = message.seed();
     emitter.message = std::make_shared<const v1::Emitter>(message);
-    readSchedule(check, message, field, emitter);
+    check.part([&] { readSchedule(check, message, field, emitter); });
     emitter.begin += context.origin;
-    if (!check.ok()) return emitter;
+    if (!check.ok() || !areBoundsKnown(check)) return emitter;
     drawSamples(emitter);
     useMaterial(check, emitter, scene, field);
     if (check.ok()) checkFreePlaces(check, emitter, scene, field);
@@ -225,7 +233,7 @@ Emitter readEmitter(Check& check, const v1::Emitter& message, const EmitterConte
 void useMaterial(Check& check, Emitter& emitter, const Scene& scene, const std::string& field) {
     emitter.density = scene.materials[emitter.material].density;
     emitter.expected = expectedSpheres(emitter, scene);
-    checkStream(check, emitter, field);
+    if (check.isRight(at("materials", emitter.material))) checkStream(check, emitter, field);
 }
 
 void checkBirths(Check& check, const Scene& scene, const std::string& field) {
@@ -244,22 +252,22 @@ Group groupFor(Check& check, const v1::Emitter& message, const Emitter& emitter,
 }
 
 void readEmitters(Check& check, const v1::Scene& message, std::optional<std::uint64_t> seed, Scene& scene) {
-    if (static_cast<std::size_t>(message.emitters_size()) > maxEmitters)
-        check.refuse("emitters",
-                     fmt::format("has {} entries, must have at most {}", message.emitters_size(), maxEmitters));
-    if (scene.groups.size() + static_cast<std::size_t>(message.emitters_size()) > maxGroups)
-        check.refuse("emitters", fmt::format("are too many: groups and emitters are at most {}", maxGroups));
-    for (std::size_t k = 0; k < static_cast<std::size_t>(message.emitters_size()) && check.ok(); ++k) {
-        const std::string field = at("emitters", k);
+    const auto count = static_cast<std::size_t>(message.emitters_size());
+    if (count > maxEmitters)
+        return check.refuse("emitters", fmt::format("has {} entries, must have at most {}", count, maxEmitters));
+    if (scene.groups.size() + count > maxGroups)
+        return check.refuse("emitters", fmt::format("are too many: groups and emitters are at most {}", maxGroups));
+    const bool ratesKnown = check.isRight("step") && check.isRight("materials");
+    check.entries("emitters", count, [&](std::size_t k, const std::string& field) {
         v1::Emitter one = message.emitters(static_cast<int>(k));
         if (seed) one.set_seed(*seed);
         const auto group = static_cast<std::uint16_t>(scene.groups.size());
         Emitter emitter = readEmitter(check, one, {.field = field, .stream = k, .group = group}, scene);
         scene.groups.push_back(groupFor(check, one, emitter, field));
-        if (!check.ok()) return;
+        if (!check.ok() || !areBoundsKnown(check)) return;
         scene.emitters.push_back(std::move(emitter));
-        checkBirths(check, scene, field);
-    }
+        if (ratesKnown) checkBirths(check, scene, field);
+    });
 }
 
 void checkEmitterSpeeds(Check& check, const Scene& scene) {

@@ -25,9 +25,11 @@ constexpr double widest = 1e9;      // m
 Vortex readVortex(Check& check, const v1::Vortex& message, const std::string& field) {
     Vortex vortex;
     vortex.centre = check.vector(message.centre(), at(field, "centre"));
-    const glm::dvec3 axis = check.vector(message.axis(), at(field, "axis"));
-    if (check.ok() && !(glm::length(axis) > 0)) check.refuse(at(field, "axis"), "is zero, must have a direction");
-    if (check.ok()) vortex.axis = glm::normalize(axis);
+    check.part([&] {
+        const glm::dvec3 axis = check.vector(message.axis(), at(field, "axis"));
+        if (!(glm::length(axis) > 0)) check.refuse(at(field, "axis"), "is zero, must have a direction");
+        if (check.ok()) vortex.axis = glm::normalize(axis);
+    });
     vortex.speed = check.within(message.speed(), -fastest, fastest, at(field, "speed"), " m/s");
     vortex.core = check.within(message.core(), narrowest, widest, at(field, "core"), " m");
     return vortex;
@@ -40,10 +42,12 @@ Field readKind(Check& check, const v1::Drag& message, const std::string& field) 
         drag.density = check.within(message.density(), 0, densest, at(field, "density"), " kg/m^3");
     if (message.has_coefficient())
         drag.coefficient = check.within(message.coefficient(), 0, roughest, at(field, "coefficient"));
-    drag.velocity = check.vectorOr(message.velocity(), glm::dvec3(0), at(field, "velocity"));
-    if (glm::length(drag.velocity) > fastest)
-        check.refuse(at(field, "velocity"),
-                     fmt::format("is {:g} m/s long, at most {:g} is allowed", glm::length(drag.velocity), fastest));
+    check.part([&] {
+        drag.velocity = check.vectorOr(message.velocity(), glm::dvec3(0), at(field, "velocity"));
+        if (glm::length(drag.velocity) > fastest)
+            check.refuse(at(field, "velocity"),
+                         fmt::format("is {:g} m/s long, at most {:g} is allowed", glm::length(drag.velocity), fastest));
+    });
     if (message.has_vortex()) drag.vortex = readVortex(check, message.vortex(), at(field, "vortex"));
     return drag;
 }
@@ -187,19 +191,25 @@ double submergedIntegral(double radius, double depth) {
 }
 
 std::optional<Field> readField(Check& check, const v1::Field& message, const std::string& at) {
-    std::optional<Field> field = readKindOf(check, message, at);
-    if (field) std::visit([&](auto& one) { one.region = readRegion(check, message, at); }, *field);
+    std::optional<Field> field;
+    check.part([&] { field = readKindOf(check, message, at); });
+    std::optional<Region> region;
+    check.part([&] { region = readRegion(check, message, at); });
+    if (field) std::visit([&](auto& one) { one.region = region; }, *field);
     return field;
 }
 
 std::vector<Field> readFields(Check& check, const v1::Scene& message) {
     std::vector<Field> fields;
-    if (static_cast<unsigned>(message.fields_size()) > maxFields)
-        check.refuse("fields", fmt::format("has {} entries, must have at most {}", message.fields_size(), maxFields));
-    for (int k = 0; k < message.fields_size() && check.ok(); ++k) {
-        std::optional<Field> field = readField(check, message.fields(k), at("fields", static_cast<std::size_t>(k)));
-        if (field) fields.push_back(std::move(*field));
+    const auto count = static_cast<std::size_t>(message.fields_size());
+    if (count > maxFields) {
+        check.refuse("fields", fmt::format("has {} entries, must have at most {}", count, maxFields));
+        return fields;
     }
+    check.entries("fields", count, [&](std::size_t k, const std::string& here) {
+        // Each keeps its number, even if one before is refused.
+        fields.push_back(readField(check, message.fields(static_cast<int>(k)), here).value_or(Drag()));
+    });
     return fields;
 }
 

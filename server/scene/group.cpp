@@ -67,12 +67,21 @@ double longestSide(const Bounds& bounds) {
     return std::max({side.x, side.y, side.z});
 }
 
-// `lines`: of a file's spheres.
-std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context,
-                               SourceInput input, FileLines& lines) {
+// A group as it is read, for refusals of its spheres.
+struct ReadGroup {
+    const v1::Group& message;
+    const std::string& source;  // field of the source
+    std::vector<Sphere> spheres{};
+    FileLines lines{};                 // of a file's spheres
+    std::vector<std::size_t> wrong{};  // numbers of refused spheres of a list, in order
+};
+
+std::vector<Sphere> fromSource(Check& check, ReadGroup& group, const Scene& scene, const GroupContext& context,
+                               SourceInput input) {
+    const v1::Group& message = group.message;
     switch (message.source_case()) {
         case v1::Group::kList:
-            return fromList(check, message.list(), std::move(input));
+            return fromList(check, message.list(), std::move(input), group.wrong);
         case v1::Group::kLattice:
             return fromLattice(check, message.lattice(), scene.bounds, std::move(input));
         case v1::Group::kFill:
@@ -83,21 +92,13 @@ std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Sce
         case v1::Group::kCsv:
         case v1::Group::kXyz:
         case v1::Group::kLammps:
-            return fromFile(check, message, context, std::move(input), lines);
+            return fromFile(check, message, context, std::move(input), group.lines);
         case v1::Group::SOURCE_NOT_SET:
             check.refuse(context.field, "has no spheres, must have one of list, lattice, fill, csv, xyz, lammps");
             break;
     }
     return {};
 }
-
-// A group as it is read, for refusals of its spheres.
-struct ReadGroup {
-    const v1::Group& message;
-    const std::string& source;  // field of the source
-    std::vector<Sphere> spheres;
-    FileLines lines;
-};
 
 // Refuses sphere `index`, with its place in the scene or its file.
 void refuseSphere(Check& check, const ReadGroup& group, std::size_t index, const std::string& reason) {
@@ -126,16 +127,22 @@ void checkWork(Check& check, const Scene& scene, const std::string& source, std:
 
 constexpr std::size_t betweenMarks = 1024;  // spheres
 
+// Refuses spheres that have no place: the first one, or the first ones of a list.
 void checkPlaces(Check& check, const ReadGroup& group, const Scene& scene) {
     const std::vector<Sphere>& spheres = group.spheres;
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        if (i % betweenMarks == 0 && !check.goesOn("checking places", i, spheres.size())) return;
+    const std::size_t most = group.message.has_list() ? mostWrongSpheres : 1;
+    std::size_t refused = group.wrong.size();
+    for (std::size_t i = 0; i < spheres.size() && refused < most; ++i) {
+        if (i % betweenMarks == 0 && !check.part([&] { check.goesOn("checking places", i, spheres.size()); })) return;
+        if (std::ranges::binary_search(group.wrong, i)) continue;
         const auto radius = static_cast<double>(spheres[i].radius);
         std::optional<std::string> reason = whyOutside(scene.bounds, spheres[i].position, radius);
         if (const auto hit = obstacleAt(scene, spheres[i].position, radius); !reason && hit) {
             reason = fmt::format("reaches into {}", at("obstacles", *hit));
         }
-        if (reason) return refuseSphere(check, group, i, *reason);
+        if (!reason) continue;
+        check.part([&] { refuseSphere(check, group, i, *reason); });
+        ++refused;
     }
 }
 
@@ -161,8 +168,11 @@ bool addTaken(Check& check, std::span<const Sphere> taken, Occupancy& occupancy)
 }
 
 void checkName(Check& check, const std::string& name, std::string_view field) {
-    if (name.size() > longestName)
-        check.refuse(std::string(field), fmt::format("is {} bytes long, must be at most {}", name.size(), longestName));
+    check.part([&] {
+        if (name.size() > longestName)
+            check.refuse(std::string(field),
+                         fmt::format("is {} bytes long, must be at most {}", name.size(), longestName));
+    });
 }
 
 Group groupOf(std::span<const Sphere> spheres, std::string name, Look look) {
@@ -174,31 +184,49 @@ Group groupOf(std::span<const Sphere> spheres, std::string name, Look look) {
     return group;
 }
 
+namespace {
+
+// Reads the spheres, and checks that they have places in the scene.
+void readSpheres(Check& check, ReadGroup& group, const Scene& scene, const GroupContext& context, SourceInput input,
+                 std::uint8_t material) {
+    const v1::Group& message = group.message;
+    group.spheres = fromSource(check, group, scene, context, std::move(input));
+    for (Sphere& sphere : group.spheres) {
+        sphere.material = material;
+        sphere.fixed = message.fixed();
+        sphere.group = static_cast<std::uint16_t>(scene.groups.size());
+    }
+    if (message.fixed() && check.ok()) checkAtRest(check, group);
+    if (check.ok()) checkWork(check, scene, group.source, context.taken.size() + group.spheres.size());
+    if ((check.ok() || !group.wrong.empty()) && !message.list().saved()) checkPlaces(check, group, scene);
+}
+
+// Returns true if mistakes of the text may have changed where the spheres of the group are. Each sphere of a list has
+// its own place.
+bool arePlacesDoubtful(const Check& check, const v1::Group& message, const std::string& source) {
+    return check.isDoubtful(message.has_list() ? at(source, "saved") : source);
+}
+
+}  // namespace
+
 std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context) {
     const std::string source = at(context.field, sourceName(message));
     SourceInput input{.field = source,
                       .room = context.room,
                       .random = Random(context.seed.value_or(seedOf(message)), context.stream)};
-    if (message.has_radius())
+    const bool drawn = !message.has_radius() || check.part([&] {
         input.radii = readRadiusDistribution(check, message.radius(), at(context.field, "radius"));
+    });
     input.velocity = check.vectorOr(message.velocity(), {}, at(context.field, "velocity"));
     input.spin = check.vectorOr(message.spin(), {}, at(context.field, "spin"));
     const std::uint8_t material =
         materialNamed(check, message.material(), scene.materials, at(context.field, "material"));
     readLook(check, message, context.field);
     checkName(check, message.name(), at(context.field, "name"));
-    if (!check.ok()) return {};
-
-    ReadGroup group{message, source, {}, {}};
-    group.spheres = fromSource(check, message, scene, context, std::move(input), group.lines);
-    for (Sphere& sphere : group.spheres) {
-        sphere.material = material;
-        sphere.fixed = message.fixed();
-        sphere.group = static_cast<std::uint16_t>(scene.groups.size());
-    }
-    if (message.fixed()) checkAtRest(check, group);
-    if (check.ok()) checkWork(check, scene, source, context.taken.size() + group.spheres.size());
-    if (check.ok() && !message.list().saved()) checkPlaces(check, group, scene);
+    ReadGroup group{message, source};
+    const bool placed = context.placesFills || !message.has_fill();
+    if (drawn && placed && areBoundsKnown(check) && !arePlacesDoubtful(check, message, source))
+        check.part([&] { readSpheres(check, group, scene, context, std::move(input), material); });
     return std::move(group.spheres);
 }
 

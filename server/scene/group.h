@@ -22,6 +22,7 @@ struct GroupContext {
     std::span<const Sphere> taken{};                   // a fill avoids these spheres
     Occupancy& occupancy;                              // may hold the first of `taken`; holds all after a fill
     std::size_t room = 0;                              // spheres that the scene may still take
+    bool placesFills = true;                           // false: a fill is not placed
 };
 
 // Reads the look of a v1::Group or a v1::Emitter.

@@ -39,6 +39,7 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, const 
     const RadiusDistribution& radii = requiredRadii(check, input);
     const Box region = check.box(lattice.min(), lattice.max(), input.field);
     const double spacing = check.positive(lattice.spacing(), at(input.field, "spacing"));
+    if (!check.ok()) return {};
     const double jitter = check.within(lattice.jitter(), 0, spacing, at(input.field, "jitter"), " m (the spacing)");
     if (!check.ok()) return {};
 

@@ -31,15 +31,15 @@ const RadiusDistribution& requiredRadii(Check& check, const SourceInput& input) 
     return none;
 }
 
-std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input) {
+std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input, std::vector<std::size_t>& wrong) {
     std::vector<Sphere> spheres;
     const auto count = static_cast<std::size_t>(list.spheres_size());
     const auto room = checkRoom(check, input, static_cast<double>(count), at(input.field, "spheres"));
     if (!room) return spheres;
     spheres.reserve(count);
-    for (std::size_t i = 0; i < count && check.ok(); ++i) {
+    check.entries(at(input.field, "spheres"), count, [&](std::size_t i, const std::string& field) {
+        if (wrong.size() == mostWrongSpheres) return;
         const v1::Sphere& message = list.spheres(static_cast<int>(i));
-        const std::string field = at(at(input.field, "spheres"), i);
         Sphere sphere;
         sphere.position = check.vector(message.position(), at(field, "position"));
         sphere.velocity = check.vectorOr(message.velocity(), input.velocity, at(field, "velocity"));
@@ -48,7 +48,8 @@ std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput inp
                             ? static_cast<float>(readRadius(check, message.radius(), at(field, "radius")))
                             : requiredRadii(check, input).draw(input.random);
         spheres.push_back(sphere);
-    }
+        if (!check.ok()) wrong.push_back(i);
+    });
     return spheres;
 }
 

@@ -22,8 +22,8 @@ constexpr std::uint64_t longestFile = 32U << 20U;  // bytes of JSON
 constexpr std::ptrdiff_t mostObjects = 2'000'000;  // each takes about 130 bytes when parsed, even if empty
 
 // The place of a mistake: "file:line:column: field.path".
-std::string placeOf(const std::string& text, const std::string& source, std::size_t offset, const std::string& path) {
-    return fmt::format("{}{}{}{}", source, lineAndColumn(text, offset), path.empty() ? "" : ": ", path);
+std::string placeOf(const std::string& source, const std::string& lineAndColumn, const std::string& path) {
+    return fmt::format("{}{}{}{}", source, lineAndColumn, path.empty() ? "" : ": ", path);
 }
 
 Result<std::string> readUnpaused(const std::string& source) {
@@ -43,11 +43,24 @@ Result<std::string> readText(const std::string& source) {
     return readUnpaused(source);
 }
 
-std::vector<Error> structuralErrors(const std::string& text, const std::string& source) {
+// `mistakes`: in the order of their places.
+std::vector<Error> errorsOf(const std::vector<Mistake>& mistakes, const std::string& text, const std::string& source) {
     std::vector<Error> errors;
-    for (const Mistake& mistake : structuralMistakes(text))
-        errors.push_back({ErrorKind::Input, placeOf(text, source, mistake.offset, mistake.path), mistake.message});
+    LineCounter lines(text);
+    for (const Mistake& one : mistakes)
+        errors.push_back({ErrorKind::Input, placeOf(source, lines.at(one.offset), one.path), one.message});
     return errors;
+}
+
+std::vector<Error> structuralErrors(const std::string& text, const std::string& source) {
+    return errorsOf(structureOf(text).mistakes, text, source);
+}
+
+std::size_t offsetOf(const std::string& text, const std::string& path) {
+    TextPlaces places;
+    places.add(path);
+    find(places, text);
+    return places.offsetOf(path);
 }
 
 // Builds a scene from a text without structural mistakes.
@@ -56,7 +69,7 @@ Result<Scene> buildText(const std::string& text, const std::string& source, cons
                         Progress* progress) {
     auto message = parseJson(text, source);
     const auto withPlace = [&](Error error) {
-        error.where = placeOf(text, source, offsetOf(text, error.where), error.where);
+        error.where = placeOf(source, lineAndColumn(text, offsetOf(text, error.where)), error.where);
         return error;
     };
     if (!message) {
@@ -74,6 +87,31 @@ Result<Scene> buildFile(const std::string& text, const std::string& source, cons
                         Progress* progress) {
     const std::filesystem::path path(source);
     return buildText(text, source, path.stem().string(), path.parent_path(), overrides, progress);
+}
+
+// Returns the errors of a scene's content, as far as the text can be read. Each has the path of its field.
+std::vector<Error> contentErrors(const std::string& text, const std::string& source, const Structure& structure) {
+    const auto message = parseJson(structure.cuts.empty() ? text : withoutCuts(text, structure.cuts), source);
+    if (!message) {
+        const std::string prefix = source + ": ";
+        Error error = message.error();
+        error.where = error.where.starts_with(prefix) ? error.where.substr(prefix.size()) : "";
+        return {error};
+    }
+    std::vector<std::string> doubts;
+    for (const Mistake& one : structure.mistakes) doubts.push_back(one.meant.empty() ? one.path : one.meant);
+    return errorsIn(std::filesystem::path(source).parent_path(), *message, std::move(doubts));
+}
+
+// Adds the mistakes of the content to the structural ones.
+void addContent(std::vector<Mistake>& mistakes, const std::string& text, std::vector<Error> errors) {
+    TextPlaces places;
+    for (const Error& error : errors) places.add(error.where);
+    find(places, text);
+    for (Error& error : errors)
+        mistakes.push_back({places.offsetOf(error.where), std::move(error.where), std::move(error.message), ""});
+    std::ranges::stable_sort(mistakes, {}, &Mistake::offset);
+    mistakes.resize(std::min(mistakes.size(), mostMistakes));
 }
 
 // Adds the values of all fields `file` in a message.
@@ -136,10 +174,11 @@ Result<std::vector<std::string>> filesNamedIn(const std::string& path) {
 std::vector<Error> mistakesOf(const std::string& path) {
     const auto text = readText(path);
     if (!text) return {text.error()};
-    std::vector<Error> errors = structuralErrors(*text, path);
-    if (errors.empty())
-        if (const auto scene = buildFile(*text, path, {}, nullptr); !scene) errors.push_back(scene.error());
-    return errors;
+    Structure structure = structureOf(*text);
+    const auto isNoScene = [](const Mistake& one) { return one.path.empty(); };
+    if (structure.wholeRead && std::ranges::none_of(structure.mistakes, isNoScene))
+        addContent(structure.mistakes, *text, contentErrors(*text, path, structure));
+    return errorsOf(structure.mistakes, *text, path);
 }
 
 }  // namespace spherule::scene

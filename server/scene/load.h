@@ -38,8 +38,9 @@ struct Overrides {
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides = {},
                    Progress* progress = nullptr);
 
-// Returns all structural mistakes of the scene's file, or else the first mistake that load() finds; empty if load()
-// accepts it. Mistakes are "file:line:column: field.path". At most mostMistakes are returned.
+// Returns the mistakes of the scene's file, of structure and of content; empty if load() accepts it. They are in the
+// order of their places, "file:line:column: field.path". At most mostMistakes are returned. A file that is no JSON has
+// structural mistakes alone. Errors of content that follow from a structural mistake are left out.
 std::vector<Error> mistakesOf(const std::string& path);
 
 // Returns the structural mistakes alone, without building the scene.

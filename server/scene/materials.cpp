@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scene/group.h"
+#include "scene/hints.h"
 
 namespace spherule::scene {
 
@@ -42,10 +43,12 @@ Material readMaterial(Check& check, const v1::Material& message, std::span<const
                       const std::string& field) {
     checkName(check, message.name(), at(field, "name"));
     Material material = readValues(check, message, field);
-    if (!first && material.name.empty())
-        check.refuse(at(field, "name"), "is missing; only the first material may go without");
-    else if (std::ranges::find(others, material.name, &Material::name) != others.end())
-        check.refuse(at(field, "name"), fmt::format("is {}, the name of another material", shown(material.name)));
+    check.part([&] {
+        if (!first && material.name.empty())
+            check.refuse(at(field, "name"), "is missing; only the first material may go without");
+        else if (std::ranges::find(others, material.name, &Material::name) != others.end())
+            check.refuse(at(field, "name"), fmt::format("is {}, the name of another material", shown(material.name)));
+    });
     return material;
 }
 
@@ -54,31 +57,52 @@ std::vector<Material> readMaterials(Check& check, const google::protobuf::Repeat
     const auto count = static_cast<std::size_t>(messages.size());
     if (count > maxMaterials)
         check.refuse("materials", fmt::format("has {} entries, must have at most {}", count, maxMaterials));
-    for (std::size_t k = 0; k < count && check.ok(); ++k) {
-        Material material = readMaterial(check, messages[static_cast<int>(k)], materials, k == 0, at("materials", k));
-        materials.push_back(std::move(material));
-    }
+    else
+        check.entries("materials", count, [&](std::size_t k, const std::string& field) {
+            materials.push_back(readMaterial(check, messages[static_cast<int>(k)], materials, k == 0, field));
+        });
     if (materials.empty()) materials.emplace_back();
     return materials;
 }
+
+namespace {
+
+// Returns false if the name of a material is wrong or missing: any unknown name may be its name.
+bool areNamesKnown(const Check& check, const std::vector<Material>& materials) {
+    for (std::size_t k = 0; k < materials.size(); ++k)
+        if ((k > 0 && materials[k].name.empty()) || check.isDoubtful(at(at("materials", k), "name"))) return false;
+    return true;
+}
+
+}  // namespace
 
 std::uint8_t materialNamed(Check& check, const std::string& name, const std::vector<Material>& materials,
                            std::string_view field) {
     if (name.empty()) return 0;
     const auto found = std::ranges::find(materials, name, &Material::name);
     if (found != materials.end()) return static_cast<std::uint8_t>(found - materials.begin());
+    if (!areNamesKnown(check, materials)) return 0;
+    std::vector<std::string> names;
     std::string known;
-    for (const Material& material : materials)
-        if (!material.name.empty()) known += (known.empty() ? "" : ", ") + shown(material.name);
-    check.refuse(std::string(field), fmt::format("is {}, which is no material of the scene; {}", shown(name),
-                                                 known.empty() ? "it has none with a name" : "it has " + known));
+    for (const Material& material : materials) {
+        if (material.name.empty()) continue;
+        names.push_back(material.name);
+        known += (known.empty() ? "" : ", ") + shown(material.name);
+    }
+    check.part([&] {
+        check.refuse(std::string(field), fmt::format("is {}, which is no material of the scene; {}{}", shown(name),
+                                                     known.empty() ? "it has none with a name" : "it has " + known,
+                                                     didYouMean(name, names)));
+    });
     return 0;
 }
 
 MaterialPair readPair(Check& check, const v1::MaterialPair& message, const std::vector<Material>& materials,
                       const std::string& field) {
     for (const auto& [name, member] : {std::pair(message.a(), "a"), std::pair(message.b(), "b")})
-        if (name.empty()) check.refuse(at(field, member), "is missing; give the name of a material");
+        check.part([&, &given = name, &own = member] {
+            if (given.empty()) check.refuse(at(field, own), "is missing; give the name of a material");
+        });
     MaterialPair pair;
     pair.a = materialNamed(check, message.a(), materials, at(field, "a"));
     pair.b = materialNamed(check, message.b(), materials, at(field, "b"));
@@ -101,16 +125,15 @@ bool samePair(const MaterialPair& one, const MaterialPair& other) {
 std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::RepeatedPtrField<v1::MaterialPair>& messages,
                                     const std::vector<Material>& materials) {
     std::vector<MaterialPair> pairs;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(messages.size()) && check.ok(); ++k) {
+    check.entries("pairs", static_cast<std::size_t>(messages.size()), [&](std::size_t k, const std::string& field) {
         const v1::MaterialPair& message = messages[static_cast<int>(k)];
-        const std::string field = at("pairs", k);
-        MaterialPair pair = readPair(check, message, materials, field);
+        const MaterialPair pair = readPair(check, message, materials, field);
         const auto same = [&](const MaterialPair& other) { return samePair(other, pair); };
         if (check.ok() && std::ranges::any_of(pairs, same))
             check.refuse(field,
                          fmt::format("is of {} and {}, as an earlier one is", shown(message.a()), shown(message.b())));
-        pairs.push_back(pair);
-    }
+        if (check.ok()) pairs.push_back(pair);
+    });
     return pairs;
 }
 

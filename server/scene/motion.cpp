@@ -141,14 +141,14 @@ void readOscillations(Check& check, const v1::Motion& message, const std::string
     if (message.oscillations_size() > maxOscillations)
         return check.refuse(at(field, "oscillations"), fmt::format("has {} entries, must have at most {}",
                                                                    message.oscillations_size(), maxOscillations));
-    for (int k = 0; k < message.oscillations_size(); ++k) {
-        const v1::Oscillation& from = message.oscillations(k);
-        const std::string here = at(at(field, "oscillations"), static_cast<std::size_t>(k));
+    const auto count = static_cast<std::size_t>(message.oscillations_size());
+    check.entries(at(field, "oscillations"), count, [&](std::size_t k, const std::string& here) {
+        const v1::Oscillation& from = message.oscillations(static_cast<int>(k));
         motion.oscillations.push_back({.amplitude = check.vectorOr(from.amplitude(), {}, at(here, "amplitude")),
                                        .swing = check.vectorOr(from.swing(), {}, at(here, "swing")),
                                        .frequency = check.upTo(from.frequency(), highest, at(here, "frequency"), " Hz"),
                                        .phase = check.within(from.phase(), -360, 360, at(here, "phase"), "°")});
-    }
+    });
 }
 
 void readKeyframes(Check& check, const v1::Motion& message, const std::string& field, Motion& motion) {
@@ -157,20 +157,21 @@ void readKeyframes(Check& check, const v1::Motion& message, const std::string& f
         return check.refuse(at(field, "keyframes"), fmt::format("has {} entries, must have at most {}",
                                                                 message.keyframes_size(), maxKeyframes));
     double before = 0;
-    for (int k = 0; k < message.keyframes_size() && check.ok(); ++k) {
-        const v1::Keyframe& from = message.keyframes(k);
-        const std::string here = at(at(field, "keyframes"), static_cast<std::size_t>(k));
+    const auto count = static_cast<std::size_t>(message.keyframes_size());
+    check.entries(at(field, "keyframes"), count, [&](std::size_t k, const std::string& here) {
+        const v1::Keyframe& from = message.keyframes(static_cast<int>(k));
         Keyframe key{.time = check.upTo(from.time(), longest, at(here, "time"), " s"),
                      .translation = check.vectorOr(from.translation(), {}, at(here, "translation"))};
-        if (from.has_rotation()) key.rotation = readRotation(check, from.rotation(), at(here, "rotation"));
+        if (from.has_rotation())
+            check.part([&] { key.rotation = readRotation(check, from.rotation(), at(here, "rotation")); });
         if (!(key.time > before))
             check.refuse(at(here, "time"),
                          fmt::format("is {} s, must be above {} s, the time before", key.time, before));
-        before = key.time;
+        before = std::max(before, key.time);
         motion.keyframes.push_back(key);
-    }
+    });
     motion.repeat = message.repeat();
-    if (!motion.repeat || !check.ok()) return;
+    if (!motion.repeat || !check.ok() || check.isDoubtful(at(field, "keyframes"))) return;
     if (motion.keyframes.empty()) return check.refuse(at(field, "repeat"), "is true without keyframes");
     const Keyframe& last = motion.keyframes.back();
     const double turned = std::fmod(last.rotation.degrees, 360);
@@ -191,15 +192,19 @@ Motion readMotion(Check& check, const v1::Motion& message, const glm::dvec3& piv
                   .belt = check.vectorOr(message.belt(), {}, at(field, "belt")),
                   .begin = check.within(message.begin(), -longest, longest, at(field, "begin"), " s")};
     if (message.has_duration()) motion.duration = check.upTo(message.duration(), longest, at(field, "duration"), " s");
-    if (glm::length(motion.acceleration) > 0 && !message.has_duration())
-        check.refuse(at(field, "duration"), "is missing, but `acceleration` needs one: the speed would grow for ever");
-    readOscillations(check, message, field, motion);
-    readKeyframes(check, message, field, motion);
-    if (message.has_drive()) {
-        if (!motion.staysInPlace() || message.begin() != 0 || message.has_duration())
-            check.refuse(at(field, "drive"), "is beside a prescribed motion; only `pivot` and `belt` go with it");
-        motion.drive = readDrive(check, message.drive(), motion.pivot, at(field, "drive"));
-    }
+    check.part([&] {
+        if (glm::length(motion.acceleration) > 0 && !message.has_duration())
+            check.refuse(at(field, "duration"),
+                         "is missing, but `acceleration` needs one: the speed would grow for ever");
+    });
+    check.part([&] { readOscillations(check, message, field, motion); });
+    check.part([&] { readKeyframes(check, message, field, motion); });
+    if (message.has_drive())
+        check.part([&] {
+            if (!motion.staysInPlace() || message.begin() != 0 || message.has_duration())
+                check.refuse(at(field, "drive"), "is beside a prescribed motion; only `pivot` and `belt` go with it");
+            motion.drive = readDrive(check, message.drive(), motion.pivot, at(field, "drive"));
+        });
     if (check.ok() && motion.staysInPlace() && glm::length(motion.belt) == 0)
         check.refuse(
             field, "moves nothing; give one of velocity, acceleration, spin, oscillations, keyframes, belt and drive");

@@ -55,13 +55,10 @@ Result<void> checkField(const Field& field, const Bounds& bounds, const std::str
 }  // namespace
 
 void readPeriodicAxes(Check& check, const v1::Bounds& message, std::string_view field, Bounds& bounds) {
-    for (int i = 0; i < message.periodic_size(); ++i) {
-        const std::string at = scene::at(scene::at(field, "periodic"), static_cast<std::size_t>(i));
-        const int axis = message.periodic(i) - v1::X;
-        if (axis < 0 || axis > 2) {
-            check.refuse(at, fmt::format("is {}, must be X, Y or Z", static_cast<int>(message.periodic(i))));
-            continue;
-        }
+    const auto count = static_cast<std::size_t>(message.periodic_size());
+    check.entries(at(field, "periodic"), count, [&](std::size_t k, const std::string& at) {
+        const int axis = message.periodic(static_cast<int>(k)) - v1::X;
+        if (axis < 0 || axis > 2) return check.refuse(at, fmt::format("is {}, must be X, Y or Z", axis + v1::X));
         const auto index = static_cast<std::size_t>(axis);
         for (const std::size_t face : {2 * index, 2 * index + 1})
             if (bounds.open[face])
@@ -69,7 +66,7 @@ void readPeriodicAxes(Check& check, const v1::Bounds& message, std::string_view 
                                              "are walls or open",
                                              axisNames[index], face % 2 == 0 ? "MIN" : "MAX"));
         bounds.periodic[index] = true;
-    }
+    });
 }
 
 bool spansPeriod(const Bounds& bounds, const Box& region, int axis) {

@@ -22,6 +22,7 @@ void readLimits(Check& check, double min, double max, std::string_view field, Ra
 
 void readNormal(Check& check, const v1::Normal& normal, std::string_view field, RadiusDistribution& radii) {
     readLimits(check, normal.min(), normal.max(), field, radii);
+    if (!check.ok()) return;
     // With these limits at least a third of the draws lies within min..max.
     const double mean = check.within(normal.mean(), radii.min, radii.max, at(field, "mean"), " (min to max)");
     const double deviation = check.upTo(normal.deviation(), radii.max - radii.min, at(field, "deviation"),
@@ -159,7 +160,11 @@ float RadiusDistribution::draw(Random& random) const {
 }
 
 double readRadius(Check& check, double value, std::string_view field) {
-    return check.within(check.positive(value, field), smallestRadius, largestRadius, field, " m");
+    check.part([&] {
+        check.positive(value, field);
+        if (check.ok()) check.within(value, smallestRadius, largestRadius, field, " m");
+    });
+    return std::isfinite(value) ? std::clamp(value, smallestRadius, largestRadius) : smallestRadius;
 }
 
 RadiusDistribution readRadiusDistribution(Check& check, const v1::Radius& message, std::string_view field) {

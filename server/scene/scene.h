@@ -115,7 +115,7 @@ inline glm::dvec3 separation(const glm::dvec3& a, const glm::dvec3& b, const glm
 class Shape;
 
 struct Obstacle {
-    std::shared_ptr<const Shape> shape;  // see scene/shapes.h
+    std::shared_ptr<const Shape> shape;  // see scene/shapes.h; null: it was refused, and is nowhere
     std::uint8_t material = 0;
     std::string colour;
     std::optional<Motion> motion{};  // nullopt: at rest

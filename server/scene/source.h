@@ -39,7 +39,10 @@ std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, d
 // Returns the group's radii, which live as long as `input`. Refuses if it has none.
 const RadiusDistribution& requiredRadii(Check& check, const SourceInput& input);
 
-std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input);
+constexpr std::size_t mostWrongSpheres = 10;  // of a list, whose errors are kept
+
+// `wrong`: gets the numbers of spheres that are refused, in order.
+std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input, std::vector<std::size_t>& wrong);
 
 // `bounds`: a region with the whole length of a periodic axis is filled across the seam.
 std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, const Bounds& bounds, SourceInput input);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <regex>
 
 #include <spdlog/fmt/fmt.h>
@@ -16,6 +15,7 @@
 #include "core/text.h"
 #include "scene/check.h"
 #include "scene/field_rules.h"
+#include "scene/hints.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {
@@ -52,11 +52,6 @@ std::string quoted(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string didYouMean(std::string_view word, const std::vector<std::string>& names) {
-    const auto nearest = suggestionFor(word, names);
-    return nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "";
-}
-
 const FieldDescriptor* fieldNamed(const pb::Descriptor& message, const std::string& name) {
     for (int k = 0; k < message.field_count(); ++k)
         if (message.field(k)->json_name() == name || message.field(k)->name() == name) return message.field(k);
@@ -68,8 +63,10 @@ struct Frame {
     const pb::Descriptor* message = nullptr;  // of an object
     const FieldDescriptor* field = nullptr;   // of an object: the member that is read; nullptr: unknown. Or of a list
     std::size_t offset = 0;
+    TextPlaces::Node* place = nullptr;               // nullptr: no path that is looked for passes it
     std::size_t count = 0;                           // entries of a list
-    std::optional<std::size_t> matched{};            // length of its path, if it contains the target
+    std::size_t part = 0;                            // offset of the member or entry that is read
+    bool wrong = false;                              // that member or entry, or an entry before
     std::vector<const FieldDescriptor*> given{};     // members of an object
     std::vector<const FieldDescriptor*> misspelt{};  // members that an unknown name probably stands for
 };
@@ -77,17 +74,16 @@ struct Frame {
 // Follows the text with the descriptors of the messages. The parser calls its members.
 class Walk {
   public:
-    // `target`: the path whose offset is wanted.
-    explicit Walk(std::string_view text, std::optional<std::string_view> target = std::nullopt)
-        : text_(text), target_(target) {}
+    // `places`: are found; may be null.
+    Walk(std::string_view text, TextPlaces* places)
+        : text_(text), place_(places != nullptr ? &places->root() : nullptr) {}
 
-    void run() {
-        nlohmann::json::sax_parse(CountingInput(text_.data(), &taken_),
-                                  CountingInput(text_.data() + text_.size(), &taken_), this);
-        std::ranges::stable_sort(mistakes_, {}, &Mistake::offset);
+    Structure run() {
+        found_.wholeRead = nlohmann::json::sax_parse(CountingInput(text_.data(), &taken_),
+                                                     CountingInput(text_.data() + text_.size(), &taken_), this);
+        std::ranges::stable_sort(found_.mistakes, {}, &Mistake::offset);
+        return std::move(found_);
     }
-    [[nodiscard]] std::vector<Mistake> mistakes() { return std::move(mistakes_); }
-    [[nodiscard]] std::size_t targetOffset() const { return targetOffset_; }
 
     bool null() { return scalar("null"); }
     bool boolean(bool value) {
@@ -114,6 +110,7 @@ class Walk {
         return scalar(shown, [](const FieldDescriptor& /*field*/) { return false; });
     }
     bool number(double value);
+    void refuseName(const std::string& name);
     void checkText(const FieldDescriptor& field, const std::string& value);
 
     // Returns the place of the token behind the one that was read last.
@@ -124,16 +121,30 @@ class Walk {
     const FieldDescriptor* beginValue();
     [[nodiscard]] bool inList() const { return !frames_.empty() && frames_.back().message == nullptr; }
     [[nodiscard]] std::string path() const;
-    // Returns the length of the path of the frame's present value if it is the target or contains it.
-    [[nodiscard]] std::optional<std::size_t> matchedIn(const Frame& frame) const;
-    // Returns false at the end of the search.
-    bool refuse(std::size_t offset, std::string path, std::string message) {
-        mistakes_.push_back({offset, std::move(path), std::move(message)});
-        return mistakes_.size() < mostMistakes;
+    void report(std::size_t offset, std::string path, std::string message, std::string meant = "") {
+        found_.mistakes.push_back({offset, std::move(path), std::move(message), std::move(meant)});
     }
+    // Reports the member or entry that is read.
+    void refuse(std::string message) {
+        report(begin_, path(), std::move(message));
+        if (!frames_.empty()) frames_.back().wrong = true;
+    }
+    // Cuts the member or entry that has been read if it is wrong. A list of values is cut as a whole.
+    void endValue(std::size_t end);
     bool goesOn() {
         last_ = taken_;
-        return mistakes_.size() < mostMistakes;
+        return found_.mistakes.size() < mostMistakes;
+    }
+    // Ends a text, a number or another literal.
+    bool endScalar() {
+        const bool inText = begin_ < text_.size() && text_[begin_] == '"';
+        // The parser has read one byte behind a number.
+        if (skipped_ == 0) endValue(inText ? taken_ : std::min(text_.find_first_of(" \t\r\n,]}", begin_), taken_));
+        return goesOn();
+    }
+    bool endSkipped() {
+        if (--skipped_ == 0) endValue(taken_);
+        return goesOn();
     }
     bool skipObject() {
         ++skipped_;
@@ -141,15 +152,13 @@ class Walk {
     }
 
     std::string_view text_;
-    std::optional<std::string_view> target_;
-    std::size_t targetOffset_ = 0;
-    std::optional<std::size_t> matched_{};  // of the value that begins
-    std::size_t taken_ = 0;                 // bytes that the parser has read
-    std::size_t last_ = 0;                  // end of the token before
-    std::size_t begin_ = 0;                 // of the token
-    std::size_t skipped_ = 0;               // depth within a value that is not checked
+    TextPlaces::Node* place_;  // of the value that begins
+    std::size_t taken_ = 0;    // bytes that the parser has read
+    std::size_t last_ = 0;     // end of the token before
+    std::size_t begin_ = 0;    // of the token
+    std::size_t skipped_ = 0;  // depth within a value that is not checked
     std::vector<Frame> frames_;
-    std::vector<Mistake> mistakes_;
+    Structure found_;
 };
 
 std::string Walk::path() const {
@@ -163,46 +172,46 @@ std::string Walk::path() const {
     return path;
 }
 
-std::optional<std::size_t> Walk::matchedIn(const Frame& frame) const {
-    if (!frame.matched || frame.field == nullptr) return std::nullopt;
-    const std::string& name = frame.field->json_name();
-    const std::string step =
-        frame.message == nullptr ? at("", frame.count - 1) : (*frame.matched == 0 ? name : "." + name);
-    const std::string_view rest = target_->substr(*frame.matched);
-    if (!rest.starts_with(step)) return std::nullopt;
-    const std::string_view after = rest.substr(step.size());
-    if (!after.empty() && after[0] != '.' && after[0] != '[') return std::nullopt;
-    return *frame.matched + step.size();
-}
-
 const FieldDescriptor* Walk::beginValue() {
     begin_ = nextToken();
     if (skipped_ > 0 || frames_.empty()) return nullptr;
     Frame& frame = frames_.back();
-    if (frame.message == nullptr) ++frame.count;
-    matched_ = matchedIn(frame);
-    if (matched_) targetOffset_ = begin_;
+    const bool list = frame.message == nullptr;
+    if (list) frame.part = begin_;
+    if (list) ++frame.count;
+    place_ = nullptr;
+    if (frame.place != nullptr && frame.field != nullptr)
+        place_ = frame.place->part(list ? at("", frame.count - 1) : frame.field->json_name());
+    if (place_ != nullptr) place_->offset = begin_;
     return frame.field;
+}
+
+void Walk::endValue(std::size_t end) {
+    if (frames_.empty() || !frames_.back().wrong) return;
+    Frame& frame = frames_.back();
+    const bool list = frame.message == nullptr;
+    if (list && frame.field->message_type() == nullptr) return;
+    found_.cuts.push_back({frame.part, end, list});
+    frame.wrong = false;
 }
 
 template <class Fits>
 bool Walk::scalar(const std::string& shown, Fits fits) {
     const FieldDescriptor* const field = beginValue();
-    if (frames_.empty() && skipped_ == 0) refuse(begin_, "", fmt::format("is {}, must be an object", shown));
-    if (field == nullptr) return goesOn();
+    if (frames_.empty() && skipped_ == 0) report(begin_, "", fmt::format("is {}, must be an object", shown));
+    if (field == nullptr) return endScalar();
     if (field->is_repeated() && !inList())
-        refuse(begin_, path(), fmt::format("is {}, must be a list", shown));
+        refuse(fmt::format("is {}, must be a list", shown));
     else if (!fits(*field))
-        refuse(begin_, path(), fmt::format("is {}, must be {}", shown, wantedText(*field)));
-    return goesOn();
+        refuse(fmt::format("is {}, must be {}", shown, wantedText(*field)));
+    return endScalar();
 }
 
 bool Walk::number(double value) {
     return scalar(fmt::format("{}", value), [&](const FieldDescriptor& field) {
         if (field.cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE && !isWhole(field)) return false;
         if (isWhole(field) && value != std::floor(value)) return false;
-        if (std::string reason = whyOutOfRange(field, value); !reason.empty())
-            refuse(begin_, path(), std::move(reason));
+        if (std::string reason = whyOutOfRange(field, value); !reason.empty()) refuse(std::move(reason));
         return true;
     });
 }
@@ -214,13 +223,13 @@ void Walk::checkText(const FieldDescriptor& field, const std::string& value) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
                std::string_view("+/-_=").find(c) != std::string::npos;
     };
-    if (bytes && !std::ranges::all_of(value, isBase64)) refuse(begin_, path(), "is not Base64");
+    if (bytes && !std::ranges::all_of(value, isBase64)) refuse("is not Base64");
     const std::size_t size = bytes ? value.size() / 4 * 3 : value.size();
     if (rule.most() > 0 && size > rule.most() + (bytes ? 2 : 0))
-        refuse(begin_, path(), fmt::format("is {} bytes long, must be at most {}", size, rule.most()));
+        refuse(fmt::format("is {} bytes long, must be at most {}", size, rule.most()));
     if (!rule.pattern().empty() &&
         (size > rule.pattern().size() * 4 || !std::regex_match(value, std::regex(rule.pattern()))))
-        refuse(begin_, path(), fmt::format("is {}, must be #rrggbb in hexadecimal", shown(value)));
+        refuse(fmt::format("is {}, must be #rrggbb in hexadecimal", shown(value)));
 }
 
 bool Walk::string(const std::string& value) {
@@ -228,8 +237,7 @@ bool Walk::string(const std::string& value) {
         if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
             const std::vector<std::string> names = namesOf(*field.enum_type());
             if (std::ranges::find(names, value) == names.end())
-                refuse(begin_, path(),
-                       fmt::format("is {}, must be {}{}", shown(value), wantedText(field), didYouMean(value, names)));
+                refuse(fmt::format("is {}, must be {}{}", shown(value), wantedText(field), didYouMean(value, names)));
             return true;
         }
         // JSON has whole numbers of 64 bits as text, because many readers keep only 53 bits.
@@ -248,18 +256,30 @@ bool Walk::start_object(std::size_t /*count*/) {
     const bool root = frames_.empty() && skipped_ == 0;
     const FieldDescriptor* const field = beginValue();
     if (root) {
-        frames_.push_back({.message = v1::Scene::descriptor(), .offset = begin_});
-        if (target_) frames_.back().matched = 0;
+        frames_.push_back({.message = v1::Scene::descriptor(), .offset = begin_, .place = place_});
         return goesOn();
     }
     if (field == nullptr) return skipObject();
     const bool asList = field->is_repeated() && !inList();
     if (asList || field->message_type() == nullptr) {
-        refuse(begin_, path(), fmt::format("is an object, must be {}", asList ? "a list" : wantedText(*field)));
+        refuse(fmt::format("is an object, must be {}", asList ? "a list" : wantedText(*field)));
         return skipObject();
     }
-    frames_.push_back({.message = field->message_type(), .offset = begin_, .matched = matched_});
+    frames_.push_back({.message = field->message_type(), .offset = begin_, .place = place_});
     return goesOn();
+}
+
+void Walk::refuseName(const std::string& name) {
+    constexpr std::size_t longest = 80;
+    Frame& frame = frames_.back();
+    frame.wrong = true;
+    const std::vector<std::string> names = namesOf(*frame.message);
+    const auto nearest = suggestionFor(name, names);
+    if (nearest) frame.misspelt.push_back(fieldNamed(*frame.message, *nearest));
+    report(begin_, at(path(), withoutControls(cutUtf8(name, longest))),
+           fmt::format("is not a field of {}{}", frame.message->name(),
+                       nearest ? didYouMean(name, names) : otherOwnersOf(name, *frame.message)),
+           nearest ? at(path(), *nearest) : "");
 }
 
 bool Walk::key(const std::string& name) {
@@ -267,36 +287,28 @@ bool Walk::key(const std::string& name) {
     if (skipped_ > 0) return goesOn();
     Frame& frame = frames_.back();
     const pb::Descriptor& message = *frame.message;
-    frame.field = nullptr;
-    const FieldDescriptor* const field = fieldNamed(message, name);
-    if (field == nullptr) {
-        constexpr std::size_t longest = 80;
-        const std::vector<std::string> names = namesOf(message);
-        refuse(begin_, at(path(), withoutControls(cutUtf8(name, longest))),
-               fmt::format("is not a field of {}{}", message.name(), didYouMean(name, names)));
-        if (const auto nearest = suggestionFor(name, names)) frame.misspelt.push_back(fieldNamed(message, *nearest));
+    frame.field = fieldNamed(message, name);
+    frame.part = begin_;
+    if (frame.field == nullptr) {
+        refuseName(name);
         return goesOn();
     }
-    frame.field = field;
+    const FieldDescriptor* const field = frame.field;
     const pb::OneofDescriptor* const oneof = field->real_containing_oneof();
     const auto beside = std::ranges::find_if(frame.given, [&](const FieldDescriptor* other) {
         return oneof != nullptr && other->real_containing_oneof() == oneof;
     });
     if (std::ranges::find(frame.given, field) != frame.given.end())
-        refuse(begin_, path(), "is given twice");
+        refuse("is given twice");
     else if (beside != frame.given.end())
-        refuse(begin_, path(),
-               fmt::format("is beside `{}`; {} has only one of {}", (*beside)->json_name(), message.name(),
+        refuse(fmt::format("is beside `{}`; {} has only one of {}", (*beside)->json_name(), message.name(),
                            quoted(namesOf(*oneof))));
     frame.given.push_back(field);
     return goesOn();
 }
 
 bool Walk::end_object() {
-    if (skipped_ > 0) {
-        --skipped_;
-        return goesOn();
-    }
+    if (skipped_ > 0) return endSkipped();
     Frame& frame = frames_.back();
     frame.field = nullptr;
     const auto has = [&](const FieldDescriptor* field) {
@@ -306,7 +318,7 @@ bool Walk::end_object() {
     for (int k = 0; k < frame.message->field_count(); ++k) {
         const FieldDescriptor* const field = frame.message->field(k);
         if (ruleOf(*field).required() && !has(field))
-            refuse(frame.offset, at(path(), field->json_name()),
+            report(frame.offset, at(path(), field->json_name()),
                    fmt::format("is missing; it must be {}",
                                ruleOf(*field).vector() ? "three numbers: x, y, z" : wantedText(*field)));
     }
@@ -315,38 +327,39 @@ bool Walk::end_object() {
         bool given = !needsOne(oneof);
         for (int member = 0; member < oneof.field_count(); ++member) given = given || has(oneof.field(member));
         if (!given)
-            refuse(frame.offset, path(), fmt::format("has none of {}; give one of them", quoted(namesOf(oneof))));
+            report(frame.offset, path(), fmt::format("has none of {}; give one of them", quoted(namesOf(oneof))),
+                   at(path(), oneof.field(0)->json_name()));
     }
     frames_.pop_back();
+    endValue(taken_);
     return goesOn();
 }
 
 bool Walk::start_array(std::size_t /*count*/) {
     const bool root = frames_.empty() && skipped_ == 0;
     const FieldDescriptor* const field = beginValue();
-    if (root) refuse(begin_, "", "is a list, must be an object");
+    if (root) report(begin_, "", "is a list, must be an object");
     if (field == nullptr) return skipObject();
     if (!field->is_repeated() || inList()) {
-        refuse(begin_, path(), fmt::format("is a list, must be {}", wantedText(*field)));
+        refuse(fmt::format("is a list, must be {}", wantedText(*field)));
         return skipObject();
     }
-    frames_.push_back({.field = field, .offset = begin_, .matched = matched_});
+    frames_.push_back({.field = field, .offset = begin_, .place = place_});
     return goesOn();
 }
 
 bool Walk::end_array() {
-    if (skipped_ > 0) {
-        --skipped_;
-        return goesOn();
-    }
+    if (skipped_ > 0) return endSkipped();
     const Frame list = frames_.back();
     frames_.pop_back();
+    begin_ = list.offset;
     const v1::Rule& rule = ruleOf(*list.field);
     if (rule.vector() && list.count != 3)
-        refuse(list.offset, path(),
-               fmt::format("has {} number{}, must have three: x, y, z", list.count, list.count == 1 ? "" : "s"));
+        refuse(fmt::format("has {} number{}, must have three: x, y, z", list.count, list.count == 1 ? "" : "s"));
     if (rule.most() > 0 && list.count > rule.most())
-        refuse(list.offset, path(), fmt::format("has {} entries, must have at most {}", list.count, rule.most()));
+        refuse(fmt::format("has {} entries, must have at most {}", list.count, rule.most()));
+    if (list.wrong) frames_.back().wrong = true;
+    endValue(taken_);
     return goesOn();
 }
 
@@ -361,22 +374,18 @@ bool Walk::parse_error(std::size_t position, const std::string& /*token*/, const
     // `position` is behind the last byte that was read.
     const std::size_t lastRead = std::min(position, taken_ + 1) - std::min<std::size_t>(position, 1);
     const bool inText = reason.starts_with("invalid string");
-    refuse(inText ? lastRead : std::min(lastRead, nextToken()), "", fmt::format("is not JSON: {}", reason));
+    report(inText ? lastRead : std::min(lastRead, nextToken()), "", fmt::format("is not JSON: {}", reason));
     return false;
 }
 
 }  // namespace
 
-std::vector<Mistake> structuralMistakes(std::string_view text) {
-    Walk walk(text);
-    walk.run();
-    return walk.mistakes();
+Structure structureOf(std::string_view text) {
+    return Walk(text, nullptr).run();
 }
 
-std::size_t offsetOf(std::string_view text, std::string_view path) {
-    Walk walk(text, path);
-    walk.run();
-    return walk.targetOffset();
+void find(TextPlaces& places, std::string_view text) {
+    Walk(text, &places).run();
 }
 
 }  // namespace spherule::scene

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <limits>
 
 #include "scene/load.h"
 #include "scene/materials.h"
@@ -21,23 +22,27 @@ constexpr std::size_t mostMeshParts = 16'700'000;
 
 }  // namespace
 
+bool areBoundsKnown(const Check& check) {
+    return check.isRight("bounds.min") && check.isRight("bounds.max") && check.isRight("bounds.periodic");
+}
+
 Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
                   std::string_view field) {
     Bounds bounds;
     const Box box = check.box(message.min(), message.max(), field);
     bounds.min = box.min;
     bounds.max = box.max;
-    for (int i = 0; i < message.open_size(); ++i) {
-        const int face = message.open(i) - v1::X_MIN;
-        if (face >= XMin && face <= ZMax) {
-            bounds.open[static_cast<std::size_t>(face)] = true;
-        } else {
-            check.refuse(at(at(field, "open"), static_cast<std::size_t>(i)),
-                         fmt::format("is {}, must be X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX",
-                                     static_cast<int>(message.open(i))));
-        }
-    }
-    readPeriodicAxes(check, message, field, bounds);
+    check.entries(
+        at(field, "open"), static_cast<std::size_t>(message.open_size()), [&](std::size_t k, const auto& place) {
+            const int face = message.open(static_cast<int>(k)) - v1::X_MIN;
+            if (face >= XMin && face <= ZMax) {
+                bounds.open[static_cast<std::size_t>(face)] = true;
+            } else {
+                check.refuse(
+                    place, fmt::format("is {}, must be X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX", face + v1::X_MIN));
+            }
+        });
+    check.part([&] { readPeriodicAxes(check, message, field, bounds); });
     bounds.material = materialNamed(check, message.material(), materials, at(field, "material"));
     return bounds;
 }
@@ -45,14 +50,16 @@ Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Mat
 Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
                       const ShapeInput& input, const std::string& field) {
     Obstacle obstacle;
-    obstacle.shape = readShape(check, message, field, input);
+    const bool placed = check.part([&] { obstacle.shape = readShape(check, message, field, input); });
     obstacle.material = materialNamed(check, message.material(), materials, at(field, "material"));
     obstacle.colour = check.colour(message.colour(), at(field, "colour"));
-    if (message.has_motion() && check.ok()) {
+    const bool moved = !message.has_motion() || check.part([&] {
         // A shape is turned and moved about the origin of its coordinates.
-        const glm::dvec3 origin = check.vectorOr(message.translation(), {}, at(field, "translation"));
+        const glm::dvec3 origin =
+            placed ? check.vectorOr(message.translation(), {}, at(field, "translation")) : glm::dvec3();
         obstacle.motion = readMotion(check, message.motion(), origin, at(field, "motion"));
-    }
+    });
+    if (!placed || !moved || check.isDoubtful(field)) obstacle.shape = nullptr;
     return obstacle;
 }
 
@@ -64,11 +71,10 @@ std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::Repeat
         check.refuse("obstacles", fmt::format("has {} entries, must have at most {}", count, maxObstacles));
         return obstacles;
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        obstacles.push_back(readObstacle(check, messages[static_cast<int>(i)], materials, input, at("obstacles", i)));
-        if (!check.ok()) break;
-    }
-    checkMeshParts(check, obstacles);
+    check.entries("obstacles", count, [&](std::size_t i, const std::string& field) {
+        obstacles.push_back(readObstacle(check, messages[static_cast<int>(i)], materials, input, field));
+    });
+    if (check.isRight("obstacles")) checkMeshParts(check, obstacles);
     return obstacles;
 }
 
@@ -141,6 +147,7 @@ std::optional<std::size_t> obstacleAt(const Scene& scene, const glm::dvec3& cent
 }
 
 double Obstacle::distance(const glm::dvec3& point, double time) const {
+    if (shape == nullptr) return std::numeric_limits<double>::infinity();
     return shape->distance(motion ? movedBy(time).inside(point) : point);
 }
 

@@ -12,8 +12,12 @@ namespace spherule::scene {
 
 struct ShapeInput;
 
+// Returns true if nothing is wrong with the place of the bounds. Otherwise nothing can be placed in them.
+bool areBoundsKnown(const Check& check);
+
 Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
                   std::string_view field);
+// An obstacle that is refused has no shape.
 Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
                       const ShapeInput& input, const std::string& field);
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,

@@ -37,7 +37,8 @@ Camera readCamera(Check& check, const v1::Camera& message, const Bounds& bounds)
     Camera camera = framing(bounds, fieldOfView);
     camera.eye = check.vectorOr(message.eye(), camera.eye, "camera.eye");
     camera.target = check.vectorOr(message.target(), camera.target, "camera.target");
-    if (camera.eye == camera.target) check.refuse("camera.target", "is where the eye is; move one of them");
+    if (check.ok() && camera.eye == camera.target)
+        check.refuse("camera.target", "is where the eye is; move one of them");
     return camera;
 }
 
@@ -45,9 +46,11 @@ Light readLight(Check& check, const v1::Light& message) {
     constexpr double strongest = 10;
     Light light;
     if (!message.direction().empty()) {
-        const glm::dvec3 direction = check.vector(message.direction(), "light.direction");
-        if (check.ok() && direction == glm::dvec3(0)) check.refuse("light.direction", "has no length");
-        if (check.ok()) light.direction = glm::normalize(direction);
+        check.part([&] {
+            const glm::dvec3 direction = check.vector(message.direction(), "light.direction");
+            if (direction == glm::dvec3(0)) check.refuse("light.direction", "has no length");
+            if (check.ok()) light.direction = glm::normalize(direction);
+        });
     }
     if (message.has_strength()) light.strength = check.within(message.strength(), 0, strongest, "light.strength");
     light.colour = check.colour(message.colour(), "light.colour");

@@ -1,6 +1,7 @@
 // Fuzzes the loader of scene files. Bounds the number of spheres, so that no input needs minutes for filling.
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 
 #include "scene/json.h"
@@ -11,7 +12,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace spherule;
     constexpr std::uint32_t mostSpheres = 1000;
     const std::string text(reinterpret_cast<const char*>(data), size);
-    const bool structured = scene::structuralMistakes(text).empty();
+    const scene::Structure structure = scene::structureOf(text);
+    const bool structured = structure.mistakes.empty();
+    // The rest of a text whose mistakes are cut has none but missing fields.
+    if (structure.wholeRead && scene::structureOf(scene::withoutCuts(text, structure.cuts)).cuts.size() > 0)
+        std::abort();
     auto message = scene::parseJson(text, "fuzz.json");
     if (!message) return 0;
     for (v1::Group& group : *message->mutable_groups()) {
@@ -21,6 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             group.mutable_lattice()->set_count(mostSpheres);
     }
     const auto built = scene::build(*message);
-    if (structured && !built) (void)scene::offsetOf(text, built.error().where);
+    scene::TextPlaces places;
+    if (structured && !built) places.add(built.error().where);
+    scene::find(places, text);
     return 0;
 }

@@ -46,6 +46,71 @@ MISTAKES = [
     ('"camera": {"fieldOfView": 0},', 27, "camera.fieldOfView", "is 0, must be 1 to 150 °"),
     ('"camera": {}', 1, "camera", "is given twice"),
 ]
+
+# Mistakes of structure and of content. "@" is before the place of each mistake, which follows with path and message.
+MIXED = [
+    ('{"bounds": {"min": [0, 0, 0], "max": [1, 1, 1], "material": @"stel"},',
+     ("bounds.material", 'is "stel", which is no material of the scene; it has "stone", "steel", "stone"; did you mean '
+                         '"steel"?')),
+    ('"gravity": [0, 0, 0], @"setp": 0.01, "quality": {"model": @"balanced"},',
+     ("setp", 'is not a field of Scene; did you mean "step"?'),
+     ("quality.model", 'is "balanced", must be one of FAST, BALANCED, ACCURATE; did you mean "BALANCED"?')),
+    ('"materials": [{"name": "stone", "restitution": @1.5}, {"name": "steel"}, {"name": @"stone"}],',
+     ("materials[0].restitution", "is 1.5, must be 0 to 1"),
+     ("materials[2].name", 'is "stone", the name of another material')),
+    ('"pairs": [{"a": "stone", "b": @"granite"}, {"a": "stone", "b": "steel"}, @{"a": "steel", "b": "stone"}],',
+     ("pairs[0].b", 'is "granite", which is no material of the scene; it has "stone", "steel", "stone"'),
+     ("pairs[2]", 'is of "steel" and "stone", as an earlier one is')),
+    ('"fields": [{"buoyancy": @{}},',
+     ("fields[0].buoyancy", "needs gravity, which is zero; give the scene a gravity or remove the buoyancy")),
+    ('{"drag": {"velocity": @[0, 0, 2e5]}, "inBox": {"min": [0, 0, 0], "max": [1, @0, 1]}}],',
+     ("fields[1].drag.velocity", "is 200000 m/s long, at most 100000 is allowed"),
+     ("fields[1].inBox.max[1]", "is 0, must be above min, which is 0")),
+    ('"obstacles": [{"mesh": {"file": @"none.stl"}, "material": @"ston"},',
+     ("obstacles[0].mesh.file", "FOLDER/none.stl: there is no such file"),
+     ("obstacles[0].material", 'is "ston", which is no material of the scene; it has "stone", "steel", "stone"; did '
+                               'you mean "stone"?')),
+    ('{"sphere": {"centre": [0.5, 0.5, 0.05], "radius": 0.04}, "motion": {"keyframes": [{"time": 2}, {"time": @1}]}},',
+     ("obstacles[1].motion.keyframes[1].time", "is 1 s, must be above 2 s, the time before")),
+    ('{"plane": {"point": [0, 0, 0], "normal": [0, @"up", 1]}, "motion": {"velocity": [0, 0, @2e9]}},',
+     ("obstacles[2].plane.normal[1]", 'is "up", must be a number'),
+     ("obstacles[2].motion.velocity[2]", "is 2000000000, must be -1000000000 to 1000000000 m/s")),
+    ('{"disc": {"centre": [0.5, 0.5, 0.5], "normal": @[0, 0, 0], "radius": 0.1}},',
+     ("obstacles[3].disc.normal", "is zero, must have a direction")),
+    ('{"box": {"min": [0.9, 0.9, 0], "max": [1, 1, 0.1]}}],',),
+    ('"groups": [{"radius": {"uniform": {"min": 0.02, "max": @0.01}}, "list": {}, "material": @"steal"},',
+     ("groups[0].radius.uniform.max", "is 0.01, must be above min, 0.02"),
+     ("groups[0].material", 'is "steal", which is no material of the scene; it has "stone", "steel", "stone"; did you '
+                            'mean "steel"?')),
+    ('{"radius": {"constant": 0.01}, "list": {"spheres": [{"position": [0.5, 0.5, 0.9]}, @{"position": [2, 0.5, 0.5]},',
+     ("groups[1].list.spheres[1]", "is at (2, 0.5, 0.5) with radius 0.01 and reaches x = 2.01, outside the bounds, "
+                                   "which are 0 to 1")),
+    ('{"position": [0.5, @"a", 0.5]}, @{"position": [0.95, 0.95, 0.05]}]}},',
+     ("groups[1].list.spheres[2].position[1]", 'is "a", must be a number'),
+     ("groups[1].list.spheres[3]", "is at (0.95, 0.95, 0.05) with radius 0.01 and reaches into obstacles[4]")),
+    ('{"radius": {"table": {"radii": [0.01, 0.02], "shares": [@0.5, 1]}}, "list": {}},',
+     ("groups[2].radius.table.shares[0]", "is 0.5, must be 0: no sphere is smaller than the first radius; begin with "
+                                          "the smallest radius")),
+    ('{"csv": {"file": @"none.csv"}, "radius": {"constant": 0.01}, @"friction": 0.3},',
+     ("groups[3].csv.file", "FOLDER/none.csv: there is no such file"),
+     ("groups[3].friction", "is not a field of Group; Material and MaterialPair have one of this name")),
+    ('{"fill": @{"min": [0, 0, 0], "max": [1, 1, 2], "count": 3}, "radius": {"constant": 0.01}},',
+     ("groups[4].fill", "reaches z = 2, outside the bounds, which are 0 to 1; make the region smaller, or the bounds "
+                        "larger")),
+    ('{"fill": {"min": [0, 0, 0], "max": [1, 1, 1], "count": 3}, "radius": {@"constnat": 0.01}}],',
+     ("groups[5].radius.constnat", 'is not a field of Radius; did you mean "constant"?')),
+    ('"camera": {"eye": [1, 1, 1], "target": @[1, 1, 1]}, "light": {"direction": @[0, 0, 0]},',
+     ("camera.target", "is where the eye is; move one of them"),
+     ("light.direction", "has no length")),
+    ('"sinks": [{"region": {"min": [0, 0, 0], "max": [@-1, 1, 1]}}],',
+     ("sinks[0].region.max[0]", "is -1, must be above min, which is 0")),
+    ('"emitters": [{"disc": {"centre": [0.5, 0.5, 0.8], "normal": [0, 0, 1], "radius": 0.1}, "rate": 9,',),
+    ('"material": @"ste",',
+     ("emitters[0].material", 'is "ste", which is no material of the scene; it has "stone", "steel", "stone"; did you '
+                              'mean "stone"?')),
+    ('"radius": {"constant": 0.01}, "schedule": [{"from": 1, "to": 2}, {"from": @1.5, "to": 3}]}]}',
+     ("emitters[0].schedule[1].from", "is 1.5 s, but the time before it ends at 2 s; give them in order")),
+]
 BEGIN = '{\n"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},\n'
 
 
@@ -63,6 +128,50 @@ class Check(FolderTestCase):
         also = [line for line in found if line not in expected]
         self.assertEqual([line for line in expected if line not in found], [], "\n".join(found))
         self.assertEqual([line.split(": ", 1)[1] for line in also], ["groups[1].radius: is 0.1, must be an object"])
+
+    def test_mistakes_of_structure_and_of_content_are_found_at_once(self):
+        expected = []
+        for number, (line, *mistakes) in enumerate(MIXED, 1):
+            parts = line.split("@")
+            self.assertEqual(len(parts), 1 + len(mistakes), line)
+            for k, (path, message) in enumerate(mistakes):
+                column = 1 + len("".join(parts[:k + 1]))
+                expected.append(f":{number}:{column}: {path}: {message.replace('FOLDER', self.folder)}")
+        self.assertEqual(self.checked("\n".join(line.replace("@", "") for line, *_ in MIXED)), expected)
+
+    def test_at_most_ten_spheres_of_a_list_are_named(self):
+        spheres = ",\n".join('{"position": [2, 0, 0]}' if k % 2 else '{"position": [0.5, 0.5, 0.5], "radius": -1}'
+                             for k in range(30))
+        group = '{"list": {"spheres": [\n' + spheres + ']}, "radius": {"constant": 0.1}}'
+        other = group.replace('"radius": -1', '"spin": [1, 0, 0]')
+        found = self.checked(BEGIN + '"groups": [' + group + "," + other + "]}")
+        structural = [line for line in found if line.endswith("radius: is -1, must be 1e-06 to 1000000 m")]
+        self.assertEqual(len(structural), 15)
+        content = [line.split(":")[3] for line in found if line not in structural]
+        self.assertEqual(content, [f" groups[{n}].list.spheres[{k}]" for n in range(2) for k in range(1, 20, 2)])
+
+    def test_nothing_that_follows_from_a_mistake_is_reported(self):
+        group = '"groups": [{"list": {"spheres": [{"position": [5, 0, 0]}]}, "radius": {"constant": 0.1}, '
+        for members, paths in {
+                # The name of a material may be the one that is named.
+                '"materials": [{"name": "a"}, {"nam": "b"}],' + group + '"material": "b"}]': ["nam", "spheres[0]"],
+                '"materials": {"name": "b"},' + group + '"material": "b"}]': ["materials", "spheres[0]"],
+                # A moved obstacle, or one without a shape, may be anywhere.
+                '"obstacles": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}, "translation": [9, 9]}],'
+                '"groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.1}]}}]': ["translation"],
+                group.replace("[5, 0, 0]}]", '[5, 0, 0]}], "saved": 1') + '"metal": 0}]': ["saved"],
+                '"step": 5, "emitters": [{"box": {"min": [0, 0, 0.5], "max": [1, 1, 1]}, "rate": 999999,'
+                ' "radius": {"constant": 0.01}}]': ["step"],
+        }.items():
+            found = self.checked(BEGIN + members + "}")
+            self.assertEqual(len(found), len(paths), found)
+            for line, path in zip(found, paths):
+                self.assertIn(f"{path}: ", line)
+        for bounds in ('"min": [0, 0], "max": [1, 1, 1]', '"min": [1, 1, 1], "max": [0, 0, 0]'):
+            found = self.checked('{"bounds": {' + bounds + "},\n" + group + '"material": "b"}]}')
+            self.assertEqual(len(found), 2, "without bounds, no sphere has a wrong place")
+            self.assertIn("bounds.m", found[0])
+            self.assertIn("groups[0].material", found[1])
 
     def test_the_first_mistake_of_the_reader_has_its_place(self):
         for members, place in {

@@ -102,7 +102,10 @@ ShapePointer readMesh(Check& check, const v1::Mesh& message, const std::string& 
     mesh = message;
     double scale = 1;
     if (mesh.scale() != 0) scale = check.upTo(mesh.scale(), 1e9, at(here, "scale"), " m per unit");
-    if (mesh.solid() && mesh.hollow()) check.refuse(at(here, "hollow"), "is true with `solid`; leave one of them out");
+    check.part([&] {
+        if (mesh.solid() && mesh.hollow())
+            check.refuse(at(here, "hollow"), "is true with `solid`; leave one of them out");
+    });
     const auto bytes = bytesOf(check, mesh, here, input);
     if (!bytes || !check.ok()) return nullptr;
     const MeshBytes from{at(here, mesh.file().empty() ? "data" : "file"), mesh.file(), *bytes};

@@ -159,7 +159,8 @@ TEST(SceneLoad, ErrorsIncludeFileAndFieldPath) {
 TEST(SceneLoad, UnknownFieldsAreNamed) {
     const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, cube(R"("gravitation": 1)")),
-              "falling.json:2:1: gravitation: is not a field of Scene");
+              "falling.json:2:1: gravitation: is not a field of Scene; did you mean \"gravity\"?");
+    EXPECT_EQ(refusalOfFile(folder, cube(R"("viscosity": 1)")), "falling.json:2:1: viscosity: is not a field of Scene");
     EXPECT_EQ(refusalOfFile(folder, cube(R"("groups": [{"csv": {"fil": "a"}}])")),
               "falling.json:2:21: groups[0].csv.fil: is not a field of Csv; did you mean \"file\"?");
 }
@@ -203,6 +204,28 @@ TEST(SceneLoad, ErrorsOfTheParserHaveTheirPlace) {
     const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, cube(R"("obstacles": [{"mesh": {"data": "abcde"}}])")),
               "falling.json:2:33: obstacles[0].mesh.data: invalid value \"abcde\" for type TYPE_BYTES");
+}
+
+TEST(SceneLoad, FewFillsWithoutRoomArePlaced) {
+    const TemporaryFolder folder;
+    const std::string full =
+        R"({"fill": {"min": [0,0,0], "max": [1,1,1], "count": 1000}, "radius": {"constant": 0.1}})";
+    const std::string json = cube("\"groups\": [" + full + "," + full + "," + full + "," + full + "," + full + "]");
+    const std::vector<Error> mistakes = mistakesOf(folder.write("full.json", json));
+    ASSERT_EQ(mistakes.size(), 3U);
+    EXPECT_NE(mistakes[2].where.find("groups[2].fill.count"), std::string::npos) << mistakes[2].text();
+}
+
+TEST(SceneLoad, PlacedFillsAreInTheWayOfLaterGroups) {
+    const TemporaryFolder folder;
+    const std::string fill =
+        R"({"fill": {"min": [0,0,0], "max": [0.3,0.3,0.3], "count": 1}, "radius": {"constant": 0.14}})";
+    const std::string wrong = R"({"list": {"spheres": [{"position": [9,0,0]}]}, "radius": {"constant": 0.1}})";
+    const std::string path = folder.write("two.json", cube("\"groups\": [" + fill + "," + wrong + "," + fill + "]"));
+    const std::vector<Error> mistakes = mistakesOf(path);
+    ASSERT_EQ(mistakes.size(), 2U);
+    EXPECT_NE(mistakes[0].where.find("groups[1].list.spheres[0]"), std::string::npos) << mistakes[0].text();
+    EXPECT_NE(mistakes[1].where.find("groups[2].fill.count"), std::string::npos) << mistakes[1].text();
 }
 
 TEST(SceneLoad, SleepCanBeTurnedOff) {

@@ -57,8 +57,9 @@ TEST(SceneMaterials, FirstMaterialIsTheDefault) {
 
 TEST(SceneMaterials, UnknownNamesAreRefusedWithTheKnownOnes) {
     const std::string steelGroup = group(R"("list": {}, "material": "stell")");
-    EXPECT_EQ(refusalOf(R"("materials": [{}, {"name": "felt"}, {"name": "steel"}], )" + steelGroup),
-              R"(groups[0].material: is "stell", which is no material of the scene; it has "felt", "steel")");
+    EXPECT_EQ(
+        refusalOf(R"("materials": [{}, {"name": "felt"}, {"name": "steel"}], )" + steelGroup),
+        R"(groups[0].material: is "stell", which is no material of the scene; it has "felt", "steel"; did you mean "steel"?)");
     EXPECT_EQ(refusalOf(steelGroup),
               R"(groups[0].material: is "stell", which is no material of the scene; it has none with a name)");
 }

@@ -75,8 +75,9 @@ TEST(ScenePairs, MayBeOfOneMaterialTwice) {
 TEST(ScenePairs, NameTwoMaterials) {
     EXPECT_EQ(refusalOfPairs("{}"), "pairs[0].a: is missing; give the name of a material");
     EXPECT_EQ(refusalOfPairs(R"({"a": "felt"})"), "pairs[0].b: is missing; give the name of a material");
-    EXPECT_EQ(refusalOfPairs(R"({"a": "felt", "b": "stell"})"),
-              R"(pairs[0].b: is "stell", which is no material of the scene; it has "felt", "steel", "ice")");
+    EXPECT_EQ(
+        refusalOfPairs(R"({"a": "felt", "b": "stell"})"),
+        R"(pairs[0].b: is "stell", which is no material of the scene; it has "felt", "steel", "ice"; did you mean "steel"?)");
 }
 
 TEST(ScenePairs, AreUnique) {

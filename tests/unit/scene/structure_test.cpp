@@ -10,7 +10,7 @@ namespace {
 // Returns the mistakes, a line each: ":line:column path: message".
 std::string mistakesOfText(std::string_view text) {
     std::string lines;
-    for (const Mistake& one : structuralMistakes(text))
+    for (const Mistake& one : structureOf(text).mistakes)
         lines += lineAndColumn(text, one.offset) + " " + one.path + (one.path.empty() ? "" : ": ") + one.message + "\n";
     return lines;
 }
@@ -135,13 +135,26 @@ TEST(SceneStructure, SyntaxErrorsHaveTheirPlace) {
 TEST(SceneStructure, SearchEndsAfterManyMistakes) {
     std::string many = "\"a\": 1";
     for (int k = 0; k < 3000; ++k) many += ", \"a\": 1";
-    EXPECT_EQ(structuralMistakes(object(many)).size(), mostMistakes);
+    const Structure found = structureOf(object(many));
+    EXPECT_EQ(found.mistakes.size(), mostMistakes);
+    EXPECT_FALSE(found.wholeRead);
 }
 
 TEST(SceneStructure, PathsHavePlaces) {
     const std::string text =
         "{\n\"groups\": [{\"list\": {}},\n {\"radius\": {\"constant\": 1}, \"list\": {}}],\n\"step\": 1}";
-    const auto place = [&](std::string_view path) { return lineAndColumn(text, offsetOf(text, path)); };
+    TextPlaces places;
+    const std::vector<std::string> paths{"groups[1].radius.constant",
+                                         "groups[1].radius",
+                                         "groups[1].material",
+                                         "groups[1]",
+                                         "step",
+                                         "ste",
+                                         "groups[12]",
+                                         ""};
+    for (const std::string& path : paths) places.add(path);
+    find(places, text);
+    const auto place = [&](std::string_view path) { return lineAndColumn(text, places.offsetOf(path)); };
     EXPECT_EQ(place("groups[1].radius.constant"), ":3:26");
     EXPECT_EQ(place("groups[1].radius"), ":3:13");
     EXPECT_EQ(place("groups[1].material"), ":3:2") << "what contains it";
@@ -150,6 +163,37 @@ TEST(SceneStructure, PathsHavePlaces) {
     EXPECT_EQ(place("ste"), ":1:1");
     EXPECT_EQ(place("groups[12]"), ":2:11");
     EXPECT_EQ(place(""), ":1:1");
+}
+
+// Returns the text without its mistakes.
+std::string rest(std::string_view text) {
+    return withoutCuts(text, structureOf(text).cuts);
+}
+
+TEST(SceneStructure, WrongMembersAreCut) {
+    EXPECT_EQ(rest(R"({"step": 2, "name": "a"})"), R"({ "name": "a"})");
+    EXPECT_EQ(rest(R"({"name": "a", "step": 2})"), R"({"name": "a"})");
+    EXPECT_EQ(rest(R"({"name": "a", "step": 2 , "camera": {}})"), R"({"name": "a" , "camera": {}})");
+    EXPECT_EQ(rest("{\"step\": -1}"), "{}");
+    EXPECT_EQ(rest(R"({"step": "a,}", "name": 7, "gravity": {"a": [1]}})"), "{}") << "neighbours";
+    EXPECT_EQ(rest(R"({"a": [{"step": 2}], "name": "b"})"), R"({ "name": "b"})") << "unknown";
+    EXPECT_EQ(rest(R"({"step": 0.1, "step": 0.2})"), R"({"step": 0.1})");
+    EXPECT_EQ(rest(R"({"groups": [{"list": {}, "csv": {"fil": "a"}}]})"), R"({"groups": [{"list": {}}]})");
+    EXPECT_EQ(rest(R"({"sleep": {"enabled": 1}, "light": [2]})"), R"({"sleep": {}})");
+}
+
+TEST(SceneStructure, WrongEntriesOfListsAreReplaced) {
+    EXPECT_EQ(rest(R"({"groups": [3, {"list": {}}, "a", [{}]]})"), R"({"groups": [{}, {"list": {}}, {}, {}]})");
+    EXPECT_EQ(rest(R"({"gravity": [0, "a", 1], "name": "b"})"), R"({ "name": "b"})") << "a list of numbers is cut";
+    EXPECT_EQ(rest(R"({"gravity": [0, 1], "name": "b"})"), R"({ "name": "b"})");
+    EXPECT_EQ(rest(R"({"bounds": {"open": ["X_MIN", "X"]}})"), R"({"bounds": {}})");
+}
+
+TEST(SceneStructure, OtherMessagesWithTheFieldAreNamed) {
+    EXPECT_EQ(mistakesWith(R"("groups": [{"list": {}, "friction": 0.2}])"),
+              ":2:25 groups[0].friction: is not a field of Group; Material and MaterialPair have one of this name\n");
+    EXPECT_EQ(mistakesWith(R"("young": 1e7)"), ":2:1 young: is not a field of Scene; Material has one of this name\n");
+    EXPECT_EQ(mistakesWith(R"("radius": 1e7)"), ":2:1 radius: is not a field of Scene\n") << "many have one";
 }
 
 }  // namespace
