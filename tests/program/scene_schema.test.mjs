@@ -1,8 +1,9 @@
 // Tests the JSON Schema of `spherule scene schema` with a validator. SPHERULE: the program.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, readdirSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
 import path from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
@@ -20,6 +21,16 @@ const obstacle = (members) => ({ obstacles: [members] });
 const box = { min: [0, 0, 0], max: [1, 1, 1] };
 const moving = (members) => obstacle({ box, motion: members });
 const driven = (members) => moving({ drive: { along: [0, 0, 1], mostSpeed: 1, ...members } });
+const emitter = (members) => ({ emitters: [{ box, rate: 10, radius: { constant: 0.1 }, ...members }] });
+const field = (members) => ({ fields: [members] });
+const buoyancy = (members) => field({ buoyancy: { density: 1000, ...members } });
+const spring = (members) => field({ spring: { centre: [0, 0, 0], stiffness: 1, ...members } });
+const vortex = (members) => field({ drag: { vortex: { centre: [0, 0, 0], axis: [0, 0, 1], core: 1, ...members } } });
+const ball = { centre: [0, 0, 0], radius: 1 };
+const cylinder = { from: [0, 0, 0], to: [0, 0, 1], radius: 1 };
+const logNormal = (members) => radius({ logNormal: { median: 0.2, deviation: 0.5, min: 0.1, max: 0.4, ...members } });
+const table = (members) => radius({ table: { radii: [0.1, 0.2], shares: [0, 1], ...members } });
+const missing = undefined; // no member of the text
 
 const wrong = {
   "no bounds": { bounds: undefined },
@@ -78,6 +89,85 @@ const wrong = {
   "misspelt constant": radius({ constnat: 0.1 }),
   "roughness above one": group({ roughness: 1.5 }),
   "sphere without position": source({ list: { spheres: [{ radius: 1 }] } }),
+  "emitter without a region": emitter({ box: missing }),
+  "emitter with two regions": emitter({ sphere: ball }),
+  "emitter without a flow": emitter({ rate: missing }),
+  "emitter with two flows": emitter({ massFlow: 1 }),
+  "emitter without radius": emitter({ radius: missing }),
+  "emitter that makes none": emitter({ rate: 0 }),
+  "emitter that makes too many": emitter({ rate: 1e7 }),
+  "rate as text": emitter({ rate: "many" }),
+  "negative mass flow": emitter({ rate: missing, massFlow: -1 }),
+  "misspelt spread": emitter({ velocitySpred: 1 }),
+  "negative spread": emitter({ velocitySpread: -1 }),
+  "flat velocity": emitter({ velocity: [0, 1] }),
+  "spin as number": emitter({ spin: 1 }),
+  "emitter of none": emitter({ total: 0 }),
+  "half a sphere in all": emitter({ total: 1.5 }),
+  "choked at once": emitter({ untilChoked: 0 }),
+  "time of work without an end": emitter({ schedule: [{ from: 1 }] }),
+  "time of work before the beginning": emitter({ schedule: [{ from: -1, to: 1 }] }),
+  "time of work as number": emitter({ schedule: 1 }),
+  "repeat as flag": emitter({ repeat: true }),
+  "disc without a normal": emitter({ box: missing, disc: { centre: [0, 0, 0], radius: 1 } }),
+  "seventeen emitters": { emitters: Array.from({ length: 17 }, () => emitter().emitters[0]) },
+  "emitters as an object": { emitters: emitter().emitters[0] },
+  "liquid of negative density": buoyancy({ density: -1 }),
+  "liquid too dense": buoyancy({ density: 1e6 }),
+  "surface as height": buoyancy({ surface: 0.5 }),
+  "level of a liquid": buoyancy({ level: [0, 0, 0.5] }),
+  "spring without centre": spring({ centre: missing }),
+  "spring that pushes": spring({ stiffness: -1 }),
+  "spring too stiff": spring({ stiffness: 1e10 }),
+  "stiffness as text": spring({ stiffness: "1" }),
+  "spring that adds energy": spring({ damping: -1 }),
+  "misspelt stiffness": spring({ stifness: 1 }),
+  "vortex without centre": vortex({ centre: missing }),
+  "vortex without axis": vortex({ axis: missing }),
+  "vortex without core": vortex({ core: missing }),
+  "vortex with a core of zero": vortex({ core: 0 }),
+  "vortex too fast": vortex({ speed: 1e6 }),
+  "vortex with a radius": vortex({ radius: 1 }),
+  "axis of a vortex by name": vortex({ axis: "Z" }),
+  "vortex beside drag": field({ vortex: { centre: [0, 0, 0], axis: [0, 0, 1], core: 1 } }),
+  "field with two regions": field({ drag: {}, inBox: box, inSphere: ball }),
+  "region alone": field({ inBox: box }),
+  "box of a field without max": field({ drag: {}, inBox: { min: [0, 0, 0] } }),
+  "ball of a field without radius": field({ drag: {}, inSphere: { centre: [0, 0, 0] } }),
+  "cylinder of a field of radius zero": field({ drag: {}, inCylinder: { ...cylinder, radius: 0 } }),
+  "cylinder of a field without an end": field({ drag: {}, inCylinder: { ...cylinder, to: missing } }),
+  "cone of a field": field({ drag: {}, inCone: cylinder }),
+  "xyz without file": source({ xyz: {} }),
+  "xyz with the file alone": source({ xyz: "a.xyz" }),
+  "xyz of scale zero": source({ xyz: { file: "a.xyz", scale: 0 } }),
+  "negative frame of xyz": source({ xyz: { file: "a.xyz", frame: -1 } }),
+  "half a frame of xyz": source({ xyz: { file: "a.xyz", frame: 0.5 } }),
+  "misspelt frame of xyz": source({ xyz: { file: "a.xyz", frames: 1 } }),
+  "lammps without file": source({ lammps: { frame: 1 } }),
+  "lammps of a file by number": source({ lammps: { file: 1 } }),
+  "lammps of negative scale": source({ lammps: { file: "a.dump", scale: -1 } }),
+  "frame of lammps by name": source({ lammps: { file: "a.dump", frame: "last" } }),
+  "unit of lammps": source({ lammps: { file: "a.dump", units: "lj" } }),
+  "lammps and xyz": source({ lammps: { file: "a.dump" }, xyz: { file: "a.xyz" } }),
+  "log-normal without median": logNormal({ median: missing }),
+  "log-normal without deviation": logNormal({ deviation: missing }),
+  "log-normal without min": logNormal({ min: missing }),
+  "log-normal without max": logNormal({ max: missing }),
+  "log-normal of deviation zero": logNormal({ deviation: 0 }),
+  "log-normal with a mean": logNormal({ mean: 0.2 }),
+  "median as text": logNormal({ median: "0.2" }),
+  "log-normal radius too large": logNormal({ max: 1e7 }),
+  "misspelt log-normal": radius({ lognormal: { median: 0.2, deviation: 0.5, min: 0.1, max: 0.4 } }),
+  "table without radii": table({ radii: missing }),
+  "table without shares": table({ shares: missing }),
+  "table of a radius of zero": table({ radii: [0, 0.2] }),
+  "table of a share above one": table({ shares: [0, 1.1] }),
+  "table of a negative share": table({ shares: [-0.1, 1] }),
+  "table of one radius as number": table({ radii: 0.1 }),
+  "table of 65 radii": table({ radii: Array.from({ length: 65 }, (_, k) => 0.1 + k) }),
+  "table by mass as text": table({ byMass: "yes" }),
+  "table by volume": table({ byVolume: true }),
+  "table and constant": radius({ constant: 0.1, table: { radii: [0.1, 0.2], shares: [0, 1] } }),
   "field of view of zero": { camera: { fieldOfView: 0 } },
   "light too strong": { light: { strength: 11 } },
   "sleep without time": { sleep: { time: 0 } },
@@ -94,6 +184,26 @@ test("every scene of the program is valid", () => {
   }
 });
 
+test("every template of `spherule scene new` is valid", () => {
+  const run = (...words) => execFileSync(process.env.SPHERULE, ["scene", "new", ...words], { encoding: "utf8" });
+  const names = run()
+    .trim()
+    .split("\n")
+    .map((line) => line.split(" ")[0]);
+  assert.ok(names.length >= 4);
+  const folder = mkdtempSync(path.join(tmpdir(), "spherule-schema-"));
+  try {
+    for (const name of names) {
+      const file = path.join(folder, `${name}.json`);
+      run(name, file);
+      const scene = JSON.parse(readFileSync(file, "utf8"));
+      assert.ok(validate(scene), `${name}: ${JSON.stringify(validate.errors)}`);
+    }
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
 test("the example of the page on scenes is valid", () => {
   const page = readFileSync(path.join(here, "../../docs/scene-format.md"), "utf8");
   const example = JSON.parse(page.match(/```json\n(.*?)```/s)[1]);
@@ -107,6 +217,19 @@ test("right values are valid", () => {
     source({ fill: { ...box, count: 1, seed: "18446744073709551615" } }),
     source({ fill: { ...box, count: 1, seed: 7 } }),
     driven({ mass: 1 }),
+    emitter({}),
+    emitter({ box: missing, disc: { centre: [0, 0, 0], normal: [0, 0, 1], radius: 1, hole: 0.5 } }),
+    emitter({ rate: missing, massFlow: 1, schedule: [{ to: 1 }], repeat: 2, total: 5, untilChoked: 1 }),
+    buoyancy({ surface: [0, 0, 0.5] }),
+    spring({ damping: 0.5 }),
+    vortex({ speed: -1 }),
+    field({ drag: {}, inBox: box }),
+    field({ drag: {}, inSphere: ball }),
+    field({ drag: {}, inCylinder: cylinder }),
+    source({ xyz: { file: "a.xyz", scale: 0.001, frame: 3 } }),
+    source({ lammps: { file: "a.dump", scale: 0.001, frame: 3 } }),
+    logNormal({}),
+    table({ byMass: true }),
   ])
     assert.ok(validate({ bounds, ...members }), JSON.stringify([members, validate.errors]));
 });
