@@ -2,15 +2,27 @@ import assert from "node:assert/strict";
 import { writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, visit, when } from "./support/browser.mjs";
+import { chooseScene, control, open, pause, visit, when } from "./support/browser.mjs";
+import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
+
+/** Runs in the page before its own code. Notes the scenes that it asks for, and passes on no request while held. */
+function watchLoads() {
+  window.loads = { asked: [], held: false };
+  const post = Worker.prototype.postMessage;
+  Worker.prototype.postMessage = function (message, ...rest) {
+    const kind = message?.command?.kind;
+    if (kind?.case === "load") window.loads.asked.push(kind.value.source.value);
+    if (kind?.case !== "load" || !window.loads.held) post.call(this, message, ...rest);
+  };
+}
 
 let server;
 let page;
 const suite = browserSuite(async (browser) => {
   server = await serve("cradle");
-  page = await open(browser, server.url, { size: [1280, 720] });
+  page = await open(browser, server.url, { size: [1280, 720], init: watchLoads });
 });
 
 const pictures = () => page.requested.filter((url) => url.includes("/scenes/"));
@@ -66,6 +78,24 @@ test("keys choose a scene, and steer nothing behind the gallery", async () => {
   await page.click(control("scenes"));
   await page.keyboard.press("Escape");
   assert.equal(await page.isVisible(control("gallery")), false);
+});
+
+test("one click on any card asks for its scene", async () => {
+  await pause(page); // a page that draws is slow to click on
+  const known = await page.evaluate(() => spherule.session.welcome.gallery.map(({ name }) => name));
+  await page.evaluate(() => (window.loads = { asked: [], held: true }));
+  for (const name of known) {
+    await chooseScene(page, name);
+    assert.equal(await page.isVisible(control("gallery")), false, name);
+  }
+  assert.deepEqual(await page.evaluate(() => window.loads.asked), known);
+  await page.evaluate(() => (window.loads.held = false));
+  for (const name of ["two-spheres", "bounce", "billiards", "cradle"]) {
+    await chooseScene(page, name);
+    await when(page, (wanted) => spherule.session.facts.name === wanted, name);
+    assert.equal((await queryServer(page)).facts.name, name);
+  }
+  assert.deepEqual(page.faults, []);
 });
 
 test("without control the cards are disabled, with the reason", async () => {
