@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -175,36 +177,76 @@ INSTANTIATE_TEST_SUITE_P(Of, Emitters,
                          testing::Values(scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate),
                          [](const auto& model) { return std::string(scene::nameOf(model.param)); });
 
+struct Pour {
+    int rate = 0;  // spheres per second
+    bool mixed = false;
+};
+
+std::ostream& operator<<(std::ostream& out, const Pour& pour) {
+    return out << pour.rate << (pour.mixed ? "_mixed" : "_equal");
+}
+
+// The mean over columns of two to three diameters of the tops of their highest spheres (m above the floor).
+double levelOf(const sim::State& state, const scene::Bounds& bounds, double diameter) {
+    const double side = bounds.max.x - bounds.min.x;
+    const auto across = static_cast<std::size_t>(side / (2.5 * diameter));
+    std::vector<double> tops(across * across);
+    const auto columnOf = [&](double from) {
+        return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(0.0, from / side) * across), 0, across - 1);
+    };
+    for (std::uint32_t k = 0; k < state.count(); ++k) {
+        const glm::dvec3 place = positionOf(state, k) + bounds.centre() - bounds.min;
+        double& top = tops[columnOf(place.y) * across + columnOf(place.x)];
+        top = std::max(top, place.z + radiusOf(state, k));
+    }
+    return std::accumulate(tops.begin(), tops.end(), 0.0) / static_cast<double>(tops.size());
+}
+
+class Filling : public testing::TestWithParam<Pour> {};
+
 // An emitter at a height fills a bin up to it, ends, and stays ended while the bed settles.
-TEST(Emitters, FillABinUpToTheirHeight) {
-    constexpr double radius = 0.015;
-    for (const auto& [height, seed] : {std::pair(0.12, 1), {0.12, 2}, {0.25, 1}, {0.25, 2}, {0.25, 3}}) {
+TEST_P(Filling, ReachesTheHeightOfTheEmitter) {
+    constexpr double diameter = 0.03;  // the mean
+    const Pour pour = GetParam();
+    // A fast one fills a wide bin, or its spheres would lack free places.
+    const double side = (pour.rate > 1000 ? 20 : 10) * diameter;
+    constexpr double height = 8 * diameter;
+    const double smallest = diameter / (pour.mixed ? 3 : 2);
+    const double largest = pour.mixed ? 2 * smallest : smallest;
+    const std::string radius = pour.mixed ? fmt::format(R"({{"uniform": {{"min": {}, "max": {}}}}})", smallest, largest)
+                                          : fmt::format(R"({{"constant": {}}})", smallest);
+    for (const int seed : {1, 2, 3}) {
+        SCOPED_TRACE(seed);
         auto simulation = simulate(sceneOf(fmt::format(
-            R"({{"bounds": {{"min": [0, 0, 0], "max": [0.3, 0.3, 0.5]}}, "materials": [{{"restitution": 0.3}}],
+            R"({{"bounds": {{"min": [0, 0, 0], "max": [{0}, {0}, 0.5]}}, "materials": [{{"restitution": 0.3}}],
             "sleep": {{"enabled": false}},
-            "emitters": [{{"box": {{"min": [0.016, 0.016, {0}], "max": [0.284, 0.284, {0}]}}, "rate": 1000,
-                          "radius": {{"constant": {1}}}, "velocity": [0, 0, -1], "untilChoked": 0.2, "seed": {2}}}]}})",
-            height, radius, seed)));
-        for (int tenths = 0; tenths < 60 && !simulation->statistics().emitters[0].ended; ++tenths)
+            "emitters": [{{"box": {{"min": [{1}, {1}, {3}], "max": [{2}, {2}, {3}]}}, "rate": {4}, "radius": {5},
+                          "velocity": [0, 0, -1], "untilChoked": 0.2, "seed": {6}}}]}})",
+            side, 1.001 * largest, side - 1.001 * largest, height, pour.rate, radius, seed)));
+        for (int tenths = 0; tenths < 1000 && !simulation->statistics().emitters[0].ended; ++tenths)
             run(*simulation, 0.1);
         const sim::Statistics ended = simulation->statistics();
-        ASSERT_TRUE(ended.emitters[0].ended) << height;
+        ASSERT_TRUE(ended.emitters[0].ended);
         EXPECT_EQ(ended.emitters[0].waiting, 0U);
         EXPECT_EQ(ended.born, ended.spheres);
         run(*simulation, 1);
         const sim::Statistics later = simulation->statistics();
-        EXPECT_EQ(later.born, ended.born) << height;
-        EXPECT_EQ(later.emitters[0].blocked, ended.emitters[0].blocked) << height;
-        double highest = 0;
+        EXPECT_EQ(later.born, ended.born);
+        EXPECT_EQ(later.emitters[0].blocked, ended.emitters[0].blocked);
         const sim::State state = simulation->snapshot();
-        for (std::uint32_t i = 0; i < state.count(); ++i)
-            highest = std::max(highest, positionOf(state, i).z + simulation->scene().bounds.centre().z);
-        EXPECT_GT(highest, height - 2.5 * radius) << "blocked by a sphere below";
-        EXPECT_LT(highest, height + 2 * radius) << height;
-        const double volume = ended.born * 4 * std::numbers::pi / 3 * radius * radius * radius;
-        EXPECT_GT(volume / (0.3 * 0.3 * height), 0.45) << height;
+        const double level = levelOf(state, simulation->scene().bounds, diameter);
+        EXPECT_NEAR(level, height, 1.5 * diameter);
+        double volume = 0;
+        for (std::uint32_t k = 0; k < state.count(); ++k)
+            volume += 4 * std::numbers::pi / 3 * std::pow(radiusOf(state, k), 3);
+        EXPECT_GT(volume / (side * side * height), 0.52);
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, Filling,
+                         testing::Values(Pour{20}, Pour{20, true}, Pour{100}, Pour{100, true}, Pour{500},
+                                         Pour{500, true}, Pour{1500}, Pour{1500, true}, Pour{5000}, Pour{5000, true}),
+                         [](const auto& pour) { return testing::PrintToString(pour.param); });
 
 // Many more spheres than the grid was made for: it gets more cells, and no sphere is lost.
 TEST(Emitters, OutgrowTheirGrid) {
