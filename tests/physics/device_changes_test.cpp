@@ -99,7 +99,7 @@ Seen seenOn(const char* choice, const Edits& edits) {
     return seen;
 }
 
-TEST_P(DeviceChanges, WaitForTheirKernelsAndGiveTheSameBits) {
+TEST_P(DeviceChanges, WaitForTheirKernelsInSoftwareAsWell) {
     const Seen expected = seenOn("cpu:1x1", GetParam());
     EXPECT_GT(expected.substeps[0], 20U) << "kernels had to be made";
     EXPECT_TRUE(expected.features.front().has(GetParam().feature));
