@@ -55,6 +55,13 @@ async function run(count) {
   return page.evaluate(() => spherule.session.newest.bytes);
 }
 
+/** The size of the smallest of some frames: now and then, a frame is a keyframe or has a hash. */
+async function smallestFrame() {
+  const sizes = [];
+  for (let k = 0; k < 5; k++) sizes.push(await run(4));
+  return Math.min(...sizes);
+}
+
 /** The orientation of the sphere in the newest state. */
 const orientation = () => page.evaluate(() => [...spherule.session.newest.columns.turn.values]);
 
@@ -80,10 +87,10 @@ test("a sphere that spins in place changes the picture while its rotation is sho
 });
 
 test("frames without the rotation have no more bytes, and their picture is still", async () => {
-  const shownBytes = await run(20);
+  const shownBytes = await smallestFrame();
   await choose("Hidden");
   const plain = await restingSphere();
-  const bytes = await run(20);
+  const bytes = await smallestFrame();
   assert.ok(bytes < shownBytes - 20, `${bytes} bytes, with spins ${shownBytes}`);
   assert.ok(plain.equals(await restingSphere()));
 });
