@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace spherule {
 
 namespace {
@@ -58,6 +60,11 @@ std::optional<std::string> suggestionFor(std::string_view word, std::span<const 
     const auto commonWith = [&](const std::string& name) { return commonBeginning(wanted, plain(name)); };
     const auto likest = std::ranges::max_element(names, {}, commonWith);
     return commonWith(*likest) > 0 ? std::optional(*likest) : std::nullopt;
+}
+
+std::string didYouMean(std::string_view word, std::span<const std::string> names) {
+    const auto nearest = suggestionFor(word, names);
+    return nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "";
 }
 
 }  // namespace spherule

@@ -12,4 +12,7 @@ namespace spherule {
 // no name is so near, it is one that begins like the word. nullopt if there is none. Any thread.
 std::optional<std::string> suggestionFor(std::string_view word, std::span<const std::string> names);
 
+// Returns `; did you mean "name"?` with that name; empty if there is none.
+std::string didYouMean(std::string_view word, std::span<const std::string> names);
+
 }  // namespace spherule

@@ -187,7 +187,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     return scene;
 }
 
-std::vector<Error> errorsIn(const std::filesystem::path& directory, const v1::Scene& message,
+std::vector<Error> errorsIn(const std::optional<std::filesystem::path>& directory, const v1::Scene& message,
                             std::vector<std::string> doubts) {
     Check check(nullptr, Check::Keep::All);
     for (std::string& doubt : doubts) check.doubt(std::move(doubt));

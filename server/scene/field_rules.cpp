@@ -149,4 +149,14 @@ std::string whyOutOfRange(const pb::FieldDescriptor& field, double value) {
                         : fmt::format("is {}, must be at least {}{}", value, low, unit);
 }
 
+std::string otherOwnersOf(std::string_view field, const google::protobuf::Descriptor& message) {
+    constexpr std::size_t most = 2;
+    std::vector<std::string> owners;
+    for (const google::protobuf::Descriptor* const one : messagesOfScene())
+        for (int k = 0; k < one->field_count() && one != &message; ++k)
+            if (one->field(k)->json_name() == field) owners.push_back(one->name());
+    if (owners.empty() || owners.size() > most) return "";
+    return fmt::format("; {} {} one of this name", fmt::join(owners, " and "), owners.size() == 1 ? "has" : "have");
+}
+
 }  // namespace spherule::scene

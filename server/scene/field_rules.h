@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <google/protobuf/descriptor.h>
@@ -38,5 +39,8 @@ std::string whyOutOfRange(const google::protobuf::FieldDescriptor& field, double
 
 // Returns the messages of which a scene consists, each before those that it contains.
 std::vector<const google::protobuf::Descriptor*> messagesOfScene();
+
+// Returns "; Material has one of this name" if one or two other messages of a scene have a field of this name.
+std::string otherOwnersOf(std::string_view field, const google::protobuf::Descriptor& message);
 
 }  // namespace spherule::scene

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/suggestion.h"
 #include "scene/group.h"
-#include "scene/hints.h"
 
 namespace spherule::scene {
 

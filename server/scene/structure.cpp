@@ -15,7 +15,6 @@
 #include "core/text.h"
 #include "scene/check.h"
 #include "scene/field_rules.h"
-#include "scene/hints.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {

@@ -2,8 +2,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
+#include "scene/build.h"
 #include "scene/json.h"
 #include "scene/load.h"
 #include "scene/structure.h"
@@ -26,6 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             group.mutable_lattice()->set_count(mostSpheres);
     }
     const auto built = scene::build(*message);
+    // The check for all mistakes finds one if the scene is refused, and only then.
+    if (built.has_value() != scene::errorsIn(std::nullopt, *message, {}).empty()) std::abort();
     scene::TextPlaces places;
     if (structured && !built) places.add(built.error().where);
     scene::find(places, text);
