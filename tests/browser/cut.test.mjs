@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, ticks, unfold, when } from "./support/browser.mjs";
+import { control, evaluateLarge, open, ticks, unfold, when } from "./support/browser.mjs";
 import { cluster, compare, placesSeen } from "./support/rays.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -47,7 +47,7 @@ async function check(kept, keys, seen = () => true) {
   for (const key of ["", ...keys]) {
     if (key) await page.keyboard.press(key);
     await ticks(page, 3);
-    const { camera, drawn } = await page.evaluate(() => ({ camera: spherule.camera, drawn: spherule.places }));
+    const { camera, drawn } = await evaluateLarge(page, () => ({ camera: spherule.camera, drawn: spherule.places }));
     const hidden = (sphere, place) => (seen(place) ? sphere : { ...sphere, radius: 0 });
     const expected = placesSeen(camera, places.map(hidden), drawn.width, drawn.height, kept);
     const { differ, wrong } = compare(drawn, expected);

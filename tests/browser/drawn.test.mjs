@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { open, settled, ticks, when } from "./support/browser.mjs";
+import { evaluateLarge, open, settled, ticks, when } from "./support/browser.mjs";
 import { cluster, compare, placesSeen } from "./support/rays.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -55,7 +55,7 @@ async function assertDrawn(page, poses, spheres, share) {
   for (const [pose, keys] of poses.entries()) {
     for (const key of keys) await page.keyboard.press(key);
     await ticks(page, 3); // with reduced motion, the next image has the pose
-    const { camera, drawn } = await page.evaluate(() => ({ camera: spherule.camera, drawn: spherule.places }));
+    const { camera, drawn } = await evaluateLarge(page, () => ({ camera: spherule.camera, drawn: spherule.places }));
     const seen = placesSeen(camera, spheres, drawn.width, drawn.height);
     const placeAt = (column, row) => {
       const found = seen(column, row);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import { beforeEach, test } from "node:test";
-import { chooseScene, control, open, says, visit, when } from "./support/browser.mjs";
+import { chooseScene, control, evaluateLarge, open, says, visit, when } from "./support/browser.mjs";
 import { gasScene, logStates } from "./support/gas.mjs";
 import { collisions, showPanel, sizes } from "./support/layout.mjs";
 import { queryServer } from "./support/raw.mjs";
@@ -260,7 +260,7 @@ test("the last seconds are saved as a recording that the program plays and expor
   assert.match(download.suggestedFilename(), /^gas-\d{8}-\d{6}\.sph$/);
   const file = path.join(suite.folder, download.suggestedFilename());
   await download.saveAs(file);
-  const seen = await watcher.evaluate(() => [...window.seen].map(([time, positions]) => ({ time, positions })));
+  const seen = await evaluateLarge(watcher, () => [...window.seen].map(([time, positions]) => ({ time, positions })));
   const quantum = await watcher.evaluate(() => spherule.positions([0]).quantum);
   const states = await exported(file);
   assert.ok(states.size > 60, `${states.size} states`);

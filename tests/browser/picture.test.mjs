@@ -3,7 +3,7 @@ import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
 import { expectPositionsOfServer } from "./support/agreement.mjs";
-import { control, open, pause, settled, when } from "./support/browser.mjs";
+import { control, evaluateLarge, open, pause, settled, when } from "./support/browser.mjs";
 import { pictureOf, shareOfDifferent, vividness } from "./support/picture.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
@@ -162,7 +162,7 @@ test("near spheres hide those behind them", async () => {
     await settled(page);
     // Ids rise from the first layer to the last, and colours with them: from blue to cream. At the edges of spheres,
     // colours are mixed.
-    const seen = await page.evaluate(() => {
+    const seen = await evaluateLarge(page, () => {
       const { width, height, places } = spherule.places;
       const found = [];
       for (let y = 2; y < height - 2; y++) {

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, says, unfold, when } from "./support/browser.mjs";
+import { control, evaluateLarge, open, says, unfold, when } from "./support/browser.mjs";
 import { collisionsByWidth } from "./support/layout.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { play, serve, spherule } from "./support/server.mjs";
@@ -123,7 +123,7 @@ test("a click on the timeline seeks at once, and no state in between is shown", 
   const { from, to } = await page.evaluate(() => spherule.shown);
   assert.equal(from, to); // no motion from the earlier state
   const { step, positions, quantum } = await queryServer(page);
-  const shown = await page.evaluate((ids) => spherule.positions(ids), [...positions.keys()]);
+  const shown = await evaluateLarge(page, (ids) => spherule.positions(ids), [...positions.keys()]);
   assert.equal(shown.step, step);
   shown.positions.forEach((position, id) => {
     position.forEach((x, axis) => assert.ok(Math.abs(x - positions[id][axis]) <= quantum, `sphere ${id}`));

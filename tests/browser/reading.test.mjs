@@ -51,6 +51,7 @@ test("each colour mode has the values of its quantity, and its legend spans them
   await page.selectOption(control("colour"), { label: "Contacts" });
   assert.deepEqual((await valuesOf(2)).map(Math.round), [1, 2, 2, 1, 0]);
   await says(page, "legend", /5 bodies/);
+  await server.ctl("query"); // a reading of the same state by another client
   await page.selectOption(control("colour"), { label: "Overlap" });
   const overlaps = await valuesOf(3);
   for (const overlap of overlaps.slice(0, 4)) assert.ok(Math.abs(overlap / 0.1 - 1) < 0.02, `${overlap}`);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { control, open, pause, ticks, when } from "./support/browser.mjs";
+import { control, evaluateLarge, open, pause, ticks, when } from "./support/browser.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -26,7 +26,7 @@ async function saved(width, height) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(control("save-picture"))]);
   assert.match(download.suggestedFilename(), /^cradle-\d{8}-\d{6}\.png$/);
   const encoded = readFileSync(await download.path()).toString("base64");
-  const image = await page.evaluate(async (data) => {
+  const decode = async (data) => {
     const loaded = new Image();
     loaded.src = `data:image/png;base64,${data}`;
     await loaded.decode();
@@ -35,7 +35,8 @@ async function saved(width, height) {
     context.drawImage(loaded, 0, 0);
     const { data: pixels } = context.getImageData(0, 0, loaded.width, loaded.height);
     return { width: loaded.width, height: loaded.height, pixels: Array.from(pixels) };
-  }, encoded);
+  };
+  const image = await evaluateLarge(page, decode, encoded);
   const at = (x, y) => image.pixels.slice(4 * (y * image.width + x), 4 * (y * image.width + x) + 3);
   return { width: image.width, height: image.height, at };
 }

@@ -1,6 +1,6 @@
 // Compares a page with the server.
 import assert from "node:assert/strict";
-import { when } from "./browser.mjs";
+import { evaluateLarge, when } from "./browser.mjs";
 import { queryServer } from "./raw.mjs";
 
 /**
@@ -11,7 +11,11 @@ export async function expectPositionsOfServer(page) {
   const sent = await queryServer(page);
   const fine = await queryServer(page, { tier: "FINE" });
   await when(page, (step) => spherule.session.newest?.step === step, sent.step);
-  const seen = await page.evaluate((count) => spherule.positions([...Array(count).keys()]), sent.positions.length);
+  const seen = await evaluateLarge(
+    page,
+    (count) => spherule.positions([...Array(count).keys()]),
+    sent.positions.length,
+  );
   assert.equal(await page.evaluate(() => spherule.spheres), sent.positions.length);
   assert.deepEqual([seen.step, seen.quantum, fine.step], [sent.step, sent.quantum, sent.step]);
   assert.ok(fine.quantum < sent.quantum / 9);

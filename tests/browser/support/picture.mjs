@@ -1,4 +1,5 @@
 // Pixels of the page's canvas.
+import { evaluateLarge } from "./browser.mjs";
 
 /**
  * Takes a screenshot of the canvas without the elements over it. `at(x, y)` returns the sRGB colour (0..255) at a CSS
@@ -10,7 +11,7 @@ export async function pictureOf(page) {
     page.evaluate((value) => (document.querySelector(".page").style.visibility = value), visibility);
   await setVisibility("hidden");
   const shot = await page.screenshot({ scale: "css", timeout: 120_000 });
-  const { width, data } = await page.evaluate(async (encoded) => {
+  const decode = async (encoded) => {
     const image = new Image();
     image.src = `data:image/png;base64,${encoded}`;
     await image.decode();
@@ -18,7 +19,8 @@ export async function pictureOf(page) {
     const context = canvas.getContext("2d");
     context.drawImage(image, 0, 0);
     return { width: image.width, data: Array.from(context.getImageData(0, 0, image.width, image.height).data) };
-  }, shot.toString("base64"));
+  };
+  const { width, data } = await evaluateLarge(page, decode, shot.toString("base64"));
   await setVisibility("");
   return {
     data,
