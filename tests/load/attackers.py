@@ -1,9 +1,10 @@
-"""Hostile clients of a server's port, each kind from its own address, with the expected outcomes.
+"""Hostile clients of a server's port, each kind from its own address, with the causes under which the server counts them.
 
 An attacker repeats `attempt` until it is stopped. It counts its attempts in `tried` and their outcomes in `answers`. Wire
 formats are written out, because our clients cannot send them.
 """
 import asyncio
+import contextlib
 import os
 import random
 import struct
@@ -35,8 +36,11 @@ def hello(token):
 
 
 class Attacker:
-    """`address`: its source address. `hands`: number of tasks. `pause`: time between two attempts of a task (s)."""
+    """`address`: its source address. `hands`: number of tasks. `pause`: time between two attempts of a task (s).
+
+    `rejected` and `closed`: causes of /metrics that count it in any case. `may`: causes that count it at times."""
     hands, pause = 4, 0.1
+    rejected, closed, may = (), (), ()
 
     def __init__(self, port, address, tokens):
         self._port, self._address, self.tokens = port, address, tokens
@@ -91,11 +95,13 @@ class Attacker:
 class Stalled(Attacker):
     """Is admitted as a viewer, and then reads nothing."""
     hands = 10
+    closed = ("stalled",)
 
     async def attempt(self, reader, writer):
         if await self.upgrade(reader, writer) != "101":
             return "refused"
         writer.write(hello(self.tokens["viewer"]))
+        writer.write(frame(field(3, b"\x08\x3c\x10\x01\x18\x01\x20\x01")))  # 60 fine frames a second, with speeds
         await asyncio.sleep(1)  # lets the server send something
         writer.transport.pause_reading()
         while not writer.transport.is_closing():
@@ -107,6 +113,7 @@ class Stalled(Attacker):
 class Storm(Attacker):
     """Connects 300 times a second, sends hello and disconnects."""
     hands, pause = 30, 0.1
+    rejected, may = ("connection_rate",), ("connections", "sessions_per_address")
 
     async def attempt(self, reader, writer):
         status = await self.upgrade(reader, writer)
@@ -116,6 +123,7 @@ class Storm(Attacker):
 
 class Garbage(Attacker):
     """Random bytes instead of HTTP, and instead of WebSocket frames."""
+    rejected, closed = ("malformed",), ("protocol",)
 
     async def attempt(self, reader, writer):
         garbage = os.urandom(random.randrange(1, 2000))
@@ -127,8 +135,22 @@ class Garbage(Attacker):
         return await self.close_code(reader)
 
 
+class Nonsense(Attacker):
+    """Messages in valid WebSocket frames that are not protobuf: as the first message, or from a viewer."""
+    closed = ("undecodable",)
+
+    async def attempt(self, reader, writer):
+        if await self.upgrade(reader, writer) != "101":
+            return "refused"
+        if random.random() < 0.5:
+            writer.write(hello(self.tokens["viewer"]))
+        writer.write(frame(b"\x0a\xff" + os.urandom(random.randrange(100))))  # a field that is longer than the message
+        return await self.close_code(reader)
+
+
 class Oversize(Attacker):
     """Headers, bodies and messages that are too long."""
+    rejected, closed = ("long_header", "long_body"), ("too_big",)
 
     async def attempt(self, reader, writer):
         kind = random.randrange(3)
@@ -146,6 +168,7 @@ class Oversize(Attacker):
 class Slow(Attacker):
     """Sends one byte of a request per second and never completes it."""
     hands = 20
+    rejected, may = ("slow_request",), ("malformed",)  # at the end it leaves in the middle of a request
 
     async def attempt(self, reader, writer):
         answer = asyncio.ensure_future(reader.read(1))
@@ -160,6 +183,7 @@ class Slow(Attacker):
 class Guesser(Attacker):
     """Tries tokens, at the stream and at /metrics."""
     hands, pause = 20, 0
+    rejected, closed = ("wrong_token",), ("no_token",)
 
     async def attempt(self, reader, writer):
         token = os.urandom(16).hex()
@@ -174,6 +198,7 @@ class Guesser(Attacker):
 
 class Stranger(Attacker):
     """Uses a foreign origin, a foreign host name, no token, or a command before the hello."""
+    rejected, closed = ("host", "origin", "no_token"), ("no_token", "no_hello")
 
     async def attempt(self, reader, writer):
         kind = random.randrange(4)
@@ -189,6 +214,7 @@ class Stranger(Attacker):
 class Commander(Attacker):
     """A viewer that sends hundreds of commands a second."""
     hands, pause = 2, 1
+    rejected, may = ("viewers_command", "command_rate"), ("overflow",)
 
     async def attempt(self, reader, writer):
         if await self.upgrade(reader, writer) != "101":
@@ -200,4 +226,17 @@ class Commander(Attacker):
         return "talked" if not reader.at_eof() else "dropped"
 
 
-ALL = (Stalled, Storm, Garbage, Oversize, Slow, Guesser, Stranger, Commander)
+ALL = (Stalled, Storm, Garbage, Nonsense, Oversize, Slow, Guesser, Stranger, Commander)
+
+
+@contextlib.asynccontextmanager
+async def at_work(port, tokens, kinds=ALL):
+    """Yields an attacker of each kind, which attack the port until the end of the block."""
+    attackers = [kind(port, f"127.0.1.{1 + ALL.index(kind)}", tokens) for kind in kinds]
+    tasks = [asyncio.ensure_future(attacker.run()) for attacker in attackers]
+    try:
+        yield attackers
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
