@@ -8,3 +8,5 @@ if(SPHERULE_SANITIZE)
   add_compile_options(-fsanitize=${SPHERULE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SPHERULE_SANITIZE})
 endif()
+# For code that waits for users, networks or other code: it takes long to compile and little of the time of a run.
+set(SPHERULE_LITTLE_OPTIMIZATION $<$<CONFIG:Release>:-O1>)

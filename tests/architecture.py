@@ -19,12 +19,13 @@ MODULES = {
     "codec": {"scene", "core"},
     "encode": {"codec", "sim", "compute", "core"},
     "recording": {"codec", "scene", "core"},
+    "checkpoint": {"recording", "sim", "scene", "compute", "core"},
     "net": {"codec", "core"},
     "client": {"net", "core"},
-    "host": {"net", "recording", "encode", "diagnostics", "codec", "sim", "scene", "compute", "core"},
+    "host": {"net", "checkpoint", "recording", "encode", "diagnostics", "codec", "sim", "scene", "compute", "core"},
     "cli": {
-        "host", "client", "measure", "net", "recording", "encode", "codec", "diagnostics", "sim", "scene", "compute",
-        "core",
+        "host", "client", "measure", "net", "checkpoint", "recording", "encode", "codec", "diagnostics", "sim", "scene",
+        "compute", "core",
     },
 }
 # Quoted includes outside of server/: messages, files embedded at build time, layout of the kernels' data.

@@ -101,8 +101,11 @@ shares() {
         "$1" | sort -rn
 }
 
+# clang-tidy cannot read the headers that GCC precompiled.
 run_tidy() {
-    run-clang-tidy -p "$build" -quiet -j "$jobs" "^$PWD/server/.*\.cpp\$" | grep -vE '^(clang-tidy|[0-9]+ warnings)'
+    mkdir -p build/tidy
+    sed -E 's/-Winvalid-pch -include [^ ]+cmake_pch\.hxx//' "$build/compile_commands.json" > build/tidy/compile_commands.json
+    run-clang-tidy -p build/tidy -quiet -j "$jobs" "^$PWD/server/.*\.cpp\$" | grep -vE '^(clang-tidy|[0-9]+ warnings)'
     return "${PIPESTATUS[0]}"
 }
 
@@ -131,7 +134,7 @@ fuzzed() {
 if [[ -n $fuzz ]]; then
     needed packages ./deploy/install_packages.sh build run egl software test clang
     needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
-    targets=(scene csv xyz lammps mesh height_field table text message connection codec recording)
+    targets=(scene csv xyz lammps mesh height_field table text message connection codec recording checkpoint)
     needed build cmake --build --preset fuzz -j "$jobs" --target "${targets[@]/#/fuzz_}"
     for target in "${targets[@]}"; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
     summary
@@ -144,7 +147,7 @@ if [[ -n $sanitize ]]; then
     summary
     exit
 fi
-needed packages ./deploy/install_packages.sh build run egl software test ${tidy:+tidy}
+needed packages ./deploy/install_packages.sh build run egl software test ${tidy:+tidy} ${all:+image}
 needed ase ./tests/unpack_ase.sh build/ase
 needed lammps ./tests/unpack_lammps.sh build/lammps
 needed nginx ./tests/deploy/unpack_nginx.sh build/nginx

@@ -10,6 +10,7 @@ constexpr int exitInput = 2;  // wrong usage, scene or file
 constexpr int exitNoDevice = 3;
 constexpr int exitRefused = 4;
 constexpr int exitDiverged = 5;
+constexpr int exitDiffers = 6;      // two runs differ
 constexpr int exitDeviceLost = 75;  // a new start may help
 constexpr int exitBySignal = 128;   // plus the number of the signal that ended the program early
 
@@ -21,6 +22,7 @@ constexpr const char* exitCodesText =
     "  3                                          no device\n"
     "  4                                          refused: memory, disk, port\n"
     "  5                                          non-finite position or velocity\n"
+    "  6                                          two runs differ\n"
     "  75                                         device lost or hanging; start again\n"
     "  129, 130, 143                              ended early by a signal";
 

@@ -2,20 +2,28 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "checkpoint/folder.h"
 #include "cli/errors.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/option_values.h"
 #include "cli/options.h"
 #include "cli/progress_line.h"
+#include "codec/order.h"
+#include "compute/device.h"
 #include "core/log.h"
+#include "host/facts_message.h"
+#include "host/to_proto.h"
 #include "recording/exporter.h"
 #include "recording/recording.h"
 #include "recording/unwrap.h"
+#include "sim/simulation.h"
 
 namespace spherule::cli {
 
@@ -171,12 +179,59 @@ Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt)
     return {};
 }
 
+// Writes the state of a checkpoint as one frame. Its positions are exact.
+Result<void> exportCheckpoint(const ExportOptions& options) {
+    if (!options.every.empty() || !options.from.empty() || !options.to.empty() || options.unwrap)
+        return fail(ErrorKind::Input, options.file,
+                    "is a checkpoint, with one state: leave out --every, --from, --to and --unwrap");
+    const auto path = checkpoint::newestIn(options.file);
+    if (!path) return tl::unexpected(path.error());
+    const auto world = checkpoint::readCheckpoint(*path);
+    if (!world) return tl::unexpected(world.error());
+    auto device = compute::openDevice("cpu:1");
+    if (!device) return tl::unexpected(device.error());
+    const auto simulation = sim::Simulation::restore(**device, world->state);
+    if (!simulation) return fail(ErrorKind::Input, *path, simulation.error().message);
+    const scene::Scene& scene = (*simulation)->scene();
+    const sim::State state = (*simulation)->snapshot();
+    if (state.count() == 0) return fail(ErrorKind::Input, *path, "has no spheres");
+
+    const v1::ServerMessage facts = host::factsMessage(**simulation, 1);
+    std::vector<std::uint32_t> order(state.count());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto table = recording::SphereTable::from(facts.scene(), codec::orderMessage(1, 1, order));
+    if (!table) return fail(ErrorKind::Input, *path, table.error().message);
+    std::vector<glm::dvec3> positions;
+    for (std::uint32_t rank = 0; rank < state.count(); ++rank)
+        positions.push_back(sim::positionOf(state, rank) + scene.bounds.centre());
+    v1::Frame poses;
+    host::setPoses(poses, scene.obstacles, (*simulation)->time());
+
+    auto exporter = exporterFor(options);
+    if (!exporter) return tl::unexpected(exporter.error());
+    const std::vector<v1::Pose> moved(poses.poses().begin(), poses.poses().end());
+    if (auto done = (*exporter)->add({.time = (*simulation)->time(),
+                                      .step = (*simulation)->steps(),
+                                      .positions = positions,
+                                      .spheres = &*table,
+                                      .scene = 1,
+                                      .facts = &facts.scene(),
+                                      .poses = moved});
+        !done)
+        return done;
+    if (auto done = (*exporter)->finish(); !done) return done;
+    spdlog::info("exported the state of {}, at {:g} s, to {}", *path, (*simulation)->time(), (*exporter)->path());
+    return {};
+}
+
 }  // namespace
 
 void addExport(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ExportOptions>();
-    CLI::App* command = app.add_subcommand("export", "convert a recording for other tools");
-    command->add_option("file", options->file, "the recording")->required();
+    CLI::App* command = app.add_subcommand("export", "convert a recording or a checkpoint for other tools");
+    command
+        ->add_option("file", options->file, "the recording, the checkpoint, or a folder of checkpoints: the newest one")
+        ->required();
     command
         ->add_option("--format", options->format,
                      "xyz (OVITO, ASE), vtk (ParaView), csv, or poses (CSV of the obstacles that move)")
@@ -196,7 +251,8 @@ void addExport(CLI::App& app, int& exitCode) {
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {
         Interrupt interrupt;
-        const auto done = exportRecording(*options, interrupt);
+        const auto done =
+            checkpoint::isCheckpoint(options->file) ? exportCheckpoint(*options) : exportRecording(*options, interrupt);
         if (!done)
             exitCode = printError(done.error());
         else

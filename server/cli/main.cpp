@@ -48,6 +48,8 @@ int runCommand(int argc, char** argv) {
     addServe(app, exitCode);
     addRun(app, exitCode);
     addPlay(app, exitCode);
+    addReplay(app, exitCode);
+    addCompare(app, exitCode);
     addExport(app, exitCode);
     addPlan(app, exitCode);
     addScene(app, exitCode);

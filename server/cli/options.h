@@ -26,6 +26,8 @@ struct SceneOptions {
 void addServe(CLI::App& app, int& exitCode);
 void addRun(CLI::App& app, int& exitCode);
 void addPlay(CLI::App& app, int& exitCode);
+void addReplay(CLI::App& app, int& exitCode);
+void addCompare(CLI::App& app, int& exitCode);
 void addExport(CLI::App& app, int& exitCode);
 void addPlan(CLI::App& app, int& exitCode);
 void addScene(CLI::App& app, int& exitCode);

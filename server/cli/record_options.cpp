@@ -14,7 +14,11 @@ void addCommon(CLI::App& command, recording::Options& options, CLI::Option* need
                 },
                 "precision of positions: fine, normal or eco, 1/500, 1/50 or 1/16 of the smallest radius [fine]")
             ->check(CLI::IsMember({"fine", "normal", "eco"}));
-    if (needed != nullptr) tier->needs(needed);
+    CLI::Option* const log =
+        command.add_flag("--record-log", options.log, "recordings carry a command log, for spherule replay");
+    if (needed == nullptr) return;
+    tier->needs(needed);
+    log->needs(needed);
 }
 
 CLI::Option* addFile(CLI::App& command, recording::Options& options) {
@@ -26,7 +30,8 @@ CLI::Option* addFile(CLI::App& command, recording::Options& options) {
 void addRunRecording(CLI::App& command, recording::Options& options) {
     CLI::Option* const file = addFile(command, options);
     addCommon(command, options, file);
-    command.add_flag("--force", options.replace, "replace existing files of --record and --dump");
+    command.add_flag("--force", options.replace,
+                     "replace existing files of --record, --dump, --surface-forces and --log");
     command.add_option("--record-rate", options.rate, "frames per simulated second, at most one a step")
         ->capture_default_str()
         ->check(CLI::Range(0.001, 1e6))
@@ -34,9 +39,9 @@ void addRunRecording(CLI::App& command, recording::Options& options) {
 }
 
 void addLiveRecording(CLI::App& command, recording::LiveOptions& options) {
-    CLI::Option* const file = addFile(command, options);
+    addFile(command, options);
     addCommon(command, options, nullptr);
-    command.add_flag("--force", options.replace, "replace an existing recording")->needs(file);
+    command.add_flag("--force", options.replace, "replace existing files of --record and --log");
     command.add_option("--record-rate", options.rate, "frames per second of recordings: 5, 10, 20, 30 or 60")
         ->capture_default_str()
         ->check(CLI::IsMember({5.0, 10.0, 20.0, 30.0, 60.0}));

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "checkpoint/keeper.h"
+#include "cli/checkpoint_options.h"
 #include "cli/errors.h"
 #include "cli/exit_codes.h"
 #include "cli/force_table.h"
@@ -18,13 +20,16 @@
 #include "cli/options.h"
 #include "cli/progress_line.h"
 #include "cli/record_options.h"
+#include "cli/run_files.h"
 #include "cli/run_report.h"
 #include "cli/script.h"
 #include "cli/state_dump.h"
 #include "compute/device.h"
+#include "core/archive.h"
 #include "core/log.h"
 #include "diagnostics/overlap_watch.h"
 #include "diagnostics/substep_controller.h"
+#include "host/resume.h"
 #include "host/run_recorder.h"
 #include "host/watchdog.h"
 #include "sim/simulation.h"
@@ -36,6 +41,7 @@ namespace {
 struct RunOptions {
     SceneOptions scene;
     recording::Options record;
+    checkpoint::Options checkpoints;
     std::string duration;
     std::string every;
     std::string dump;
@@ -109,21 +115,25 @@ Result<bool> stepUnlessAsked(sim::Simulation& simulation, const Interrupt& inter
     }
 }
 
-// Runs `steps`, or fewer after a signal. Calls `every` after each `stride` steps and at the end, before the commands of
-// the script that are due at that step. `recorder` may be null.
+// Runs to step `steps`, or less far after a signal. Calls `every` after each `stride` steps and at the end, before the
+// commands of the script that are due at that step. `recorder` may be null.
 Result<void> runSteps(sim::Simulation& simulation, Script& script, host::RunRecorder* recorder,
-                      const Interrupt& interrupt, std::uint64_t steps, std::uint64_t stride,
+                      const Interrupt& interrupt, std::uint64_t steps, std::uint64_t stride, const RunFiles& files,
                       const std::function<Result<void>()>& every) {
     ProgressLine progress;
     const auto began = Clock::now();
-    diagnostics::SubstepController controller;
+    const double beganAt = simulation.time();
+    diagnostics::SubstepController& controller = files.controller;
+    checkpoint::Keeper& keeper = files.keeper;
     const auto record = [recorder](v1::Event::Kind kind, const std::string& text) {
         return recorder != nullptr ? recorder->addEvent(kind, text) : Result<void>();
     };
-    std::uint64_t k = 0;
+    std::uint64_t k = simulation.steps();
     for (bool last = false; !last;) {
         if (!simulation.midStep()) {
-            const auto applied = script.applyDue(simulation);
+            const auto applied = script.applyDue(simulation, [&](const v1::Command& command) {
+                keeper.logCommand(checkpoint::placeOf(simulation), 0, command);
+            });
             if (!applied) return tl::unexpected(applied.error());
             if (*applied) controller.reset();
         }
@@ -135,8 +145,11 @@ Result<void> runSteps(sim::Simulation& simulation, Script& script, host::RunReco
             spdlog::warn("{}", notice);
             if (auto done = record(v1::Event::WARNING, notice); !done) return done;
         }
+        const std::uint32_t substeps = simulation.scene().quality.substeps;
         const auto message = controller.stepped(simulation, 0);  // `run` accepts no goal for the wall time
         if (!message) return tl::unexpected(message.error());
+        if (simulation.scene().quality.substeps != substeps)
+            keeper.logSubsteps(checkpoint::placeOf(simulation), simulation.scene().quality.substeps);
         if (*message) {
             spdlog::info("at step {}, {}", simulation.steps(), **message);
             if (auto done = record(v1::Event::TUNED, **message); !done) return done;
@@ -145,9 +158,10 @@ Result<void> runSteps(sim::Simulation& simulation, Script& script, host::RunReco
             return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
         if (recorder != nullptr)
             if (auto done = recorder->stepped(last); !done) return done;
+        if (*ended) files.stepped(simulation);
         progress.show([&] {
             return fmt::format("{} of {} steps, {:.2f} s simulated, {:.2f} times real time ", k, steps,
-                               simulation.time(), simulation.time() / secondsSince(began));
+                               simulation.time(), (simulation.time() - beganAt) / secondsSince(began));
         });
         if (k % stride == 0 || last)
             if (auto done = every(); !done) return done;
@@ -183,7 +197,7 @@ struct Outputs {
 };
 
 Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, Script& script, compute::Device& device,
-                      Outputs& outputs, const Interrupt& interrupt, Times times) {
+                      Outputs& outputs, const Interrupt& interrupt, const RunFiles& files, Times times) {
     const double step = simulation.scene().step;
     const double every = times.every;
     const auto steps = static_cast<std::uint64_t>(std::llround(times.duration / step));
@@ -204,7 +218,8 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, Sc
             timer.start();
             return done;
         };
-        return steps == 0 ? report() : runSteps(simulation, script, recorder, interrupt, steps, stride, report);
+        if (steps <= simulation.steps()) return report();
+        return runSteps(simulation, script, recorder, interrupt, steps, stride, files, report);
     }
     StateDump& dump = *outputs.dump;
     const auto write = [&] {
@@ -212,13 +227,15 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, Sc
         return done ? writeForces() : done;
     };
     if (auto done = write(); !done) return done;
-    if (steps > 0)
-        if (auto done = runSteps(simulation, script, recorder, interrupt, steps, stride, write); !done) return done;
+    if (steps > simulation.steps())
+        if (auto done = runSteps(simulation, script, recorder, interrupt, steps, stride, files, write); !done)
+            return done;
     print(options, device.info(), simulation, timer.take());
     return {};
 }
 
-Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulation, compute::Device& device) {
+Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulation, const Script& script,
+                            compute::Device& device, Times times) {
     Outputs outputs;
     if (!options.dump.empty()) {
         auto dump = StateDump::create(options.dump, options.record.replace);
@@ -231,7 +248,8 @@ Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulati
         outputs.forces.emplace(std::move(*forces));
     }
     if (!options.record.path.empty()) {
-        auto recorder = host::RunRecorder::create(options.record, device, simulation);
+        const std::string plan = fmt::format("{}\n{}", times.duration, script.text());
+        auto recorder = host::RunRecorder::create(options.record, device, simulation, plan);
         if (!recorder) return tl::unexpected(recorder.error());
         outputs.recorder = std::move(*recorder);
     }
@@ -240,11 +258,15 @@ Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulati
 
 // Opens the output files and runs the simulation. The recording is finished even if the run has failed.
 Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation, Script& script,
-                          compute::Device& device, Interrupt& interrupt, Times times) {
+                          compute::Device& device, Interrupt& interrupt, const RunFiles& files, Times times) {
     interrupt.finishFirst();
-    auto outputs = openOutputs(options, simulation, device);
+    auto outputs = openOutputs(options, simulation, script, device, times);
     if (!outputs) return tl::unexpected(outputs.error());
-    auto done = simulate(options, simulation, script, device, *outputs, interrupt, times);
+    Result<void> done;
+    if (outputs->recorder && options.record.log)
+        done = files.keeper.beginLogInRecording(simulation, files.head(), outputs->recorder->logSink());
+    if (done) done = simulate(options, simulation, script, device, *outputs, interrupt, files, times);
+    files.finish(simulation, done);
     if (outputs->recorder) {
         auto finished = outputs->recorder->finish();
         if (done) done = finished;
@@ -260,10 +282,13 @@ Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation
 }
 
 Result<void> checkFiles(const RunOptions& options) {
-    const std::array<std::pair<const char*, const std::string&>, 3> files{
-        {{"--record", options.record.path}, {"--dump", options.dump}, {"--surface-forces", options.surfaceForces}}};
+    const std::array<std::pair<const char*, const std::string&>, 4> files{{{"--record", options.record.path},
+                                                                           {"--dump", options.dump},
+                                                                           {"--surface-forces", options.surfaceForces},
+                                                                           {"--log", options.checkpoints.log}}};
     if (options.record.replace && std::ranges::all_of(files, [](const auto& file) { return file.second.empty(); }))
-        return fail(ErrorKind::Input, "--force", "has nothing to replace; give --record, --dump or --surface-forces");
+        return fail(ErrorKind::Input, "--force",
+                    "has nothing to replace; give --record, --dump, --surface-forces or --log");
     for (std::size_t k = 0; k < files.size(); ++k) {
         const auto& [option, path] = files[k];
         if (path == "-")
@@ -274,6 +299,19 @@ Result<void> checkFiles(const RunOptions& options) {
                             fmt::format("is the file of {}; give each its own", files[other].first));
     }
     return {};
+}
+
+// Begins with the scene. Refuses what is certain to fail in a run of `duration` seconds.
+Result<std::unique_ptr<sim::Simulation>> begin(const RunOptions& options, const Script& script, compute::Device& device,
+                                               double duration) {
+    auto loaded = scene::load(options.scene.scene, device.info().kind, options.scene.overrides);
+    if (!loaded) return tl::unexpected(loaded.error());
+    if (loaded->quality.goal && loaded->quality.goal->kind == scene::QualityGoal::Kind::StepTime)
+        return fail(ErrorKind::Input, "quality.auto",
+                    "holds a time per step, so the result would depend on the load of the machine: give `run` an "
+                    "overlap to hold, such as --auto 0.5%, or --substeps");
+    if (auto fits = script.check(*loaded, duration); !fits) return tl::unexpected(fits.error());
+    return sim::Simulation::create(device, std::move(*loaded));
 }
 
 Result<void> run(const RunOptions& options) {
@@ -294,19 +332,34 @@ Result<void> run(const RunOptions& options) {
     auto device = compute::openDevice(options.scene.device);
     if (!device) return tl::unexpected(device.error());
     spdlog::info("on {}: {}", (*device)->info().renderer, (*device)->info().reason);
-    auto loaded = scene::load(options.scene.scene, (*device)->info().kind, options.scene.overrides);
-    if (!loaded) return tl::unexpected(loaded.error());
-    if (loaded->quality.goal && loaded->quality.goal->kind == scene::QualityGoal::Kind::StepTime)
-        return fail(ErrorKind::Input, "quality.auto",
-                    "holds a time per step, so the result would depend on the load of the machine: give `run` an "
-                    "overlap to hold, such as --auto 0.5%, or --substeps");
-    if (!(*duration / loaded->step <= mostSteps))
-        return fail(ErrorKind::Input, "--for",
-                    fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));
-    if (auto fits = script->check(*loaded, *duration); !fits) return fits;
-    auto simulation = sim::Simulation::create(**device, std::move(*loaded));
+    auto keeper = checkpoint::Keeper::open(options.checkpoints);
+    if (!keeper) return tl::unexpected(keeper.error());
+    auto found = (*keeper)->resume(**device);
+    if (!found) return tl::unexpected(found.error());
+    auto& resumed = *found;
+    auto simulation = resumed ? Result<std::unique_ptr<sim::Simulation>>(std::move(resumed->simulation))
+                              : begin(options, *script, **device, *duration);
     if (!simulation) return tl::unexpected(simulation.error());
-    return simulateInto(options, **simulation, *script, **device, interrupt, {.duration = *duration, .every = *every});
+    if (!(*duration / (*simulation)->scene().step <= mostSteps))
+        return fail(
+            ErrorKind::Input, "--for",
+            fmt::format("is {:g} steps, at most {:g} are allowed", *duration / (*simulation)->scene().step, mostSteps));
+    diagnostics::SubstepController controller;
+    const RunFiles files{**keeper, **device, *script, controller};
+    if (resumed) {
+        if (auto done = script->goOnAfter(resumed->head.script()); !done) return done;
+        Loader tuning(resumed->head.tuning());
+        controller.archive(tuning);
+        if (!tuning.ok()) controller.reset();
+        host::reportResumed(resumed->path, **simulation, options.scene.scene);
+        if (!options.surfaceForces.empty() && !(*simulation)->scene().contactSums)
+            return fail(ErrorKind::Input, "--surface-forces",
+                        "needs contact sums, which the checkpoint does not have; leave it out, or begin anew");
+    }
+    if (auto done = (*keeper)->beginLog(**simulation, files.head(), resumed ? &*resumed : nullptr); !done) return done;
+    host::releasePulls(**simulation, **keeper);
+    return simulateInto(options, **simulation, *script, **device, interrupt, files,
+                        {.duration = *duration, .every = *every});
 }
 
 }  // namespace
@@ -323,10 +376,12 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--script", options->script,
                         "carry out timed commands: lines such as 1.5s set gravity 0 0 -1.6");
     addRunRecording(*command, options->record);
+    addCheckpoints(*command, options->checkpoints, 60);
     addWatchdog(*command, options->watchdog);
     command->add_flag("--json", options->json, "print JSON, one line per report");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {
+        options->checkpoints.replace = options->record.replace;
         if (!options->surfaceForces.empty()) options->scene.overrides.contactSums = true;
         const auto done = run(*options);
         exitCode = done ? exitDone : printError(done.error());

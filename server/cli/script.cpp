@@ -44,35 +44,22 @@ std::vector<std::string> wordsOf(const std::string& text) {
 
 Result<sim::Command> commandOf(const std::string& where, const v1::Command& message) {
     const std::string& name = net::nameOf(message);
-    if (message.has_set()) {
-        if (message.set().has_speed())
-            return wrong(where, "'set speed' has no effect: a run goes as fast as it can; leave the line out");
-        auto set = host::setOf(message.set());
-        if (!set) return wrong(where, name, set.error());
-        if (set->goal && *set->goal && (*set->goal)->kind == scene::QualityGoal::Kind::StepTime)
-            return wrong(where,
-                         "'set auto' with a time per step makes the result depend on the load of the machine; "
-                         "give an overlap to hold, such as 0.5%");
-        return *set;
-    }
-    if (message.has_spawn()) return host::spawnOf(message.spawn());
-    if (message.has_push()) {
-        auto push = host::pushOf(message.push());
-        if (!push) return wrong(where, name, push.error());
-        return *push;
-    }
-    if (message.has_remove()) {
-        auto remove = host::removeOf(message.remove());
-        if (!remove) return wrong(where, name, remove.error());
-        return *remove;
-    }
-    if (message.has_add_obstacle()) return host::changeOf(message.add_obstacle());
-    if (message.has_move_obstacle()) return host::changeOf(message.move_obstacle());
-    if (message.has_remove_obstacle()) return host::changeOf(message.remove_obstacle());
-    if (auto change = host::partCommandOf(message)) return *change;
-    return wrong(where, fmt::format("'{}' has no place in a script; it takes set, spawn, remove, push and changes of "
-                                    "obstacles, fields, emitters, materials and groups",
-                                    name));
+    if (message.has_set() && message.set().has_speed())
+        return wrong(where, "'set speed' has no effect: a run goes as fast as it can; leave the line out");
+    // A run has no sessions, and goes on where it is.
+    const bool fits = !message.has_reset() && !message.has_pull() && !message.has_release();
+    auto command = fits ? host::worldCommandOf(message, 0) : std::nullopt;
+    if (!command)
+        return wrong(where, fmt::format("'{}' has no place in a script; it takes set, spawn, remove, push and changes "
+                                        "of obstacles, fields, emitters, materials and groups",
+                                        name));
+    if (!*command) return wrong(where, name, command->error());
+    const auto* const set = std::get_if<sim::Set>(&**command);
+    if (set != nullptr && set->goal && *set->goal && (*set->goal)->kind == scene::QualityGoal::Kind::StepTime)
+        return wrong(where,
+                     "'set auto' with a time per step makes the result depend on the load of the machine; "
+                     "give an overlap to hold, such as 0.5%");
+    return *command;
 }
 
 // The scene after the commands of a script, as far as it can be known before a run. Refuses a command that is certain
@@ -225,8 +212,8 @@ Result<Script::Line> Script::parse(const std::string& where, const std::string& 
     return Line{.where = where,
                 .time = *time,
                 .name = net::nameOf(*message),
-                .command = std::move(*command),
-                .spawn = message->spawn()};
+                .message = *message,
+                .command = std::move(*command)};
 }
 
 Result<Script> Script::read(const std::string& path) {
@@ -246,6 +233,7 @@ Result<Script> Script::read(const std::string& path) {
                                             "order of their times",
                                             line->time, script.lines_.back().time));
         script.lines_.push_back(std::move(*line));
+        script.text_ += text + '\n';
     }
     if (file.bad()) return fail(ErrorKind::Input, path, "cannot be read to its end: is it a file?");
     return script;
@@ -261,19 +249,30 @@ Result<void> Script::check(const scene::Scene& scene, double duration) const {
             return wrong(line.where, fmt::format("comes at {:g} s, when no step follows; --for ends the run at {:g} s",
                                                  line.time, duration));
         const double time = static_cast<double>(step) * scene.step;
-        if (const auto fits = then.take(line.command, line.name, time, line.spawn); !fits)
+        if (const auto fits = then.take(line.command, line.name, time, line.message.spawn()); !fits)
             return wrong(line.where, line.name, fits.error());
     }
     return {};
 }
 
-Result<bool> Script::applyDue(sim::Simulation& simulation) {
+Result<void> Script::goOnAfter(std::uint64_t commands) {
+    if (commands > lines_.size())
+        return fail(ErrorKind::Input, "--script",
+                    fmt::format("has {} commands, but {} had been carried out before the checkpoint; give the same "
+                                "script, with more lines if you like",
+                                lines_.size(), commands));
+    next_ = static_cast<std::size_t>(commands);
+    return {};
+}
+
+Result<bool> Script::applyDue(sim::Simulation& simulation, const std::function<void(const v1::Command&)>& carriedOut) {
     const std::size_t first = next_;
     for (; next_ < lines_.size(); ++next_) {
         const Line& line = lines_[next_];
         if (stepAt(line.time, simulation.scene().step) > simulation.steps()) break;
         const auto applied = simulation.apply(line.command);
         if (!applied) return wrong(line.where, line.name, applied.error());
+        carriedOut(line.message);
     }
     return next_ > first;
 }

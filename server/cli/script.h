@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,22 +28,30 @@ class Script {
     // run: those about spheres of emitters, and obstacles that spheres are in the way of.
     [[nodiscard]] Result<void> check(const scene::Scene& scene, double duration) const;
 
-    // Carries out the commands that are due at the present step: those whose time is not after it. Returns true if
-    // there were any. Call it before each step.
-    Result<bool> applyDue(sim::Simulation& simulation);
+    // The lines with commands, as in the file.
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+    // Carries out the commands that are due at the present step: those whose time is not after it. Calls
+    // carriedOut() with the message of each after it. Returns true if there were any. Call it before each step.
+    Result<bool> applyDue(sim::Simulation& simulation, const std::function<void(const v1::Command&)>& carriedOut);
+
+    [[nodiscard]] std::size_t done() const { return next_; }  // commands that have been carried out
+    // Goes on after so many commands. Input if the script has fewer.
+    Result<void> goOnAfter(std::uint64_t commands);
 
   private:
     struct Line {
         std::string where;  // "FILE:LINE"
         double time = 0;    // s simulated
         std::string name;   // of the command
+        v1::Command message;
         sim::Command command;
-        v1::Spawn spawn;  // the message of a spawn, for check()
     };
 
     static Result<Line> parse(const std::string& where, const std::string& text);
 
     std::vector<Line> lines_;
+    std::string text_;
     std::size_t next_ = 0;  // of lines_, the first that has not been carried out
 };
 

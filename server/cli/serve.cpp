@@ -1,3 +1,4 @@
+#include "cli/checkpoint_options.h"
 #include "cli/config_file.h"
 #include "cli/errors.h"
 #include "cli/exit_codes.h"
@@ -13,6 +14,7 @@ namespace {
 struct ServeOptions {
     SceneOptions scene;
     recording::LiveOptions recordings;
+    checkpoint::Options checkpoints;
     ServerOptions serving;
     std::string table;
     bool watch = false;
@@ -23,7 +25,10 @@ Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, c
     // It begins before the scene is read, so that no change is missed.
     std::unique_ptr<host::SceneWatch> watch;
     if (options.watch) watch = std::make_unique<host::SceneWatch>(options.scene.scene);
-    auto simulation = host::SimulationHost::open(options.scene.device, options.scene.scene, options.scene.overrides);
+    auto keeper = checkpoint::Keeper::open(options.checkpoints);
+    if (!keeper) return tl::unexpected(keeper.error());
+    auto simulation =
+        host::SimulationHost::open(options.scene.device, options.scene.scene, options.scene.overrides, keeper->get());
     if (!simulation) return tl::unexpected(simulation.error());
     io.board.update([&](host::ServerStatus& current) {
         current.device = (*simulation)->device().info();
@@ -33,7 +38,7 @@ Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, c
         current.spheres = (*simulation)->simulation().count();
     });
     return std::make_unique<host::SimulationProducer>(std::move(*simulation), io, table, options.recordings,
-                                                      std::move(watch));
+                                                      std::move(watch), std::move(*keeper));
 }
 
 int serve(const ServeOptions& options) {
@@ -42,6 +47,12 @@ int serve(const ServeOptions& options) {
     if (!table) return printError(table.error());
     if (options.watch && !scene::isPath(options.scene.scene))
         return printError({ErrorKind::Input, "--watch", "needs the file of a scene, such as mine.json"});
+    if (options.recordings.replace && options.recordings.path.empty() && options.checkpoints.log.empty())
+        return printError({ErrorKind::Input, "--force", "has nothing to replace; give --record or --log"});
+    const std::string& log = options.checkpoints.log;
+    if (log == "-") return printError({ErrorKind::Input, "--log", "cannot be standard output; give it a file"});
+    if (!log.empty() && log == options.recordings.path)
+        return printError({ErrorKind::Input, "--log", "is the file of --record; give each its own"});
     return serveUntilSignal([&](const host::ProducerIo& io) { return open(options, *table, io); }, options.serving,
                             "serves");
 }
@@ -54,6 +65,7 @@ void addServe(CLI::App& app, int& exitCode) {
     options->scene.addTo(*command);
     options->serving.addTo(*command);
     addLiveRecording(*command, options->recordings);
+    addCheckpoints(*command, options->checkpoints, 60);
     command->add_option(
         "--quality-table", options->table,
         "a measure.json of `spherule measure`, with errors and costs for the dial [a table in the program]");
@@ -61,7 +73,10 @@ void addServe(CLI::App& app, int& exitCode) {
                       "load the scene again when its file, or a file that it names, is saved");
     command->footer(exitCodesText);
     addSettings(*command);
-    command->callback([options, &exitCode] { exitCode = serve(*options); });
+    command->callback([options, &exitCode] {
+        options->checkpoints.replace = options->recordings.replace;
+        exitCode = serve(*options);
+    });
 }
 
 }  // namespace spherule::cli

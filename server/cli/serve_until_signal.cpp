@@ -107,8 +107,13 @@ int serveUntilSignal(const host::ProducerFactory& create, const ServerOptions& s
     int exitCode = exitDone;
     if (failure) exitCode = printError(*failure);
     if (clean && logIsWritten()) return exitCode;
-    if (!clean && !failure)
-        exitCode = printError({ErrorKind::DeviceLost, "step", "the one under way did not end in time"});
+    if (!clean && !failure) {
+        const auto checkpoints = (*server)->status().checkpoints;
+        const bool disk = checkpoints && checkpoints->underWay;
+        exitCode = printError(
+            disk ? Error{ErrorKind::Refused, "checkpoint", "the last one was not on the disk in time: it is too slow"}
+                 : Error{ErrorKind::DeviceLost, "step", "the one under way did not end in time"});
+    }
     host::endNow(exitCode);
 }
 

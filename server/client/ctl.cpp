@@ -140,6 +140,7 @@ std::string resultText(const v1::CommandResult& result) {
     if (applied.has_inspected()) return figures(applied.inspected());
     std::string text = fmt::format("applied at step {}", applied.step());
     if (applied.has_number()) text += fmt::format(", number {}", applied.number());
+    if (!applied.file().empty()) text += fmt::format(", checkpoint {}", withoutControls(applied.file()));
     if (applied.has_sphere()) text += fmt::format(", hit sphere {}", applied.sphere());
     return text;
 }

@@ -46,6 +46,7 @@ enum class Cause {
     NothingToCancel,
     Unfit,
     Stopping,
+    NoCheckpoints,
 };
 
 // The limits of a refused value, in its unit; absent: unknown.

@@ -24,10 +24,15 @@ struct Decision {
 // band below the goal it changes nothing, so that substeps do not oscillate.
 class AutoQuality {
   public:
+    AutoQuality() = default;  // without a goal: to be filled by archive()
     AutoQuality(scene::QualityGoal goal, scene::SubstepRange range) : goal_(goal), range_(range) {}
 
     // Takes a reading of steps with this number of substeps. Returns nullopt if nothing changes.
     std::optional<Decision> take(const Reading& reading, std::uint32_t substeps);
+    template <class Archive>
+    void archive(Archive& a) {
+        a(goal_.kind, goal_.max, range_.fewest, range_.most, missed_, easy_, gaveUp_);
+    }
 
   private:
     [[nodiscard]] bool readable(const Reading& reading) const;

@@ -15,6 +15,10 @@ class SubstepController {
     Result<std::optional<std::string>> stepped(sim::Simulation& simulation, double wallMs);
     // Call when the scene, its goal or anything else that affects its substeps has changed.
     void reset() { *this = {}; }
+    template <class Archive>
+    void archive(Archive& a) {
+        a(quality_, steps_, ms_, raised_);
+    }
 
   private:
     [[nodiscard]] bool full(const scene::Scene& scene) const;

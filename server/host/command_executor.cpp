@@ -23,6 +23,7 @@ constexpr auto longestHold = 500ms;   // longest wait of a command for a change 
 constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of the commands that wait for it
 constexpr std::size_t mostStepCommands = 64;
 constexpr std::size_t mostHashQueries = 64;
+constexpr std::size_t mostCheckpointCommands = 64;
 constexpr std::size_t mostInspections = 64;
 constexpr std::ptrdiff_t inspectionsPerSession = 4;
 constexpr int restPerInspection = 19;  // times the time of an inspection: all take 5 % of the time at most
@@ -57,6 +58,7 @@ void CommandExecutor::refuseAll(const std::string& reason, Cause cause) {
     while (!held_.empty()) refuse(takeHeld(), reason, cause);
     refuseSteps(reason, cause);
     refuseHashQueries(reason, cause);
+    refuseCheckpoints(reason, cause);
     for (const Request& inspection : std::exchange(inspections_, {})) refuse(inspection, reason, cause);
 }
 
@@ -80,8 +82,11 @@ void CommandExecutor::serve(Request request) {
 
 void CommandExecutor::execute(Request request) {
     const v1::Command& command = request.command;
+    const checkpoint::Keeper::Place at = checkpoint::placeOf(host_.simulation());
     const auto applied = apply(request);
-    if (!applied) {
+    if (!applied && command.has_checkpoint()) {
+        checkpointsAsked_.push_back(std::move(request));
+    } else if (!applied) {
         if (change_)
             refuseChange(fmt::format("session {} has asked for {}", request.session, wordsFor(command)), Cause::Ended);
         change_ = Pending{std::move(request), Clock::now()};
@@ -93,7 +98,7 @@ void CommandExecutor::execute(Request request) {
         // Steps that are held came before this command, so it ends them too. After a long change finish() leaves them:
         // they came later.
         if (*applied && net::rulesOf(command).ends_steps()) refuseHeldSteps();
-        finish(request, *applied);
+        finish(request, *applied, at);
     }
 }
 
@@ -105,8 +110,12 @@ void CommandExecutor::reload(const std::string& name, MakeScene make) {
     change_ = Pending{std::move(request), Clock::now()};
 }
 
-void CommandExecutor::finish(const Request& request, const Result<sim::Applied>& applied) {
+// `at`: the place of the simulation before the command.
+void CommandExecutor::finish(const Request& request, const Result<sim::Applied>& applied,
+                             const checkpoint::Keeper::Place& at) {
     const v1::CommandRules& rules = net::rulesOf(request.command);
+    if (applied && (rules.changes_world() || request.command.has_pull() || request.command.has_release()))
+        effects_.carriedOut(at, request);
     if (applied && rules.changes_world()) effects_.worldChanged();
     if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done", Cause::Ended);
     if (applied) effects_.publishChanges();
@@ -136,6 +145,33 @@ std::optional<Result<sim::Applied>> CommandExecutor::apply(const Request& reques
     }
 }
 
+std::optional<Result<sim::Applied>> CommandExecutor::saveCheckpoint() {
+    if (auto can = effects_.checkCheckpoints(); !can) return tl::unexpected(can.error());
+    if (checkpointsAsked_.size() >= mostCheckpointCommands)
+        return fail(ErrorKind::Refused, "", "too many commands wait already for a checkpoint", Cause::TooManyCommands);
+    return std::nullopt;
+}
+
+void CommandExecutor::checkpointBegun() {
+    checkpointsBegun_ = std::exchange(checkpointsAsked_, {});
+}
+
+void CommandExecutor::answerCheckpoints(const Result<std::string>& file) {
+    for (const Request& request : std::exchange(checkpointsBegun_, {})) {
+        Result<sim::Applied> applied = host_.applied();
+        if (file)
+            applied->file = *file;
+        else
+            applied = tl::unexpected(file.error());
+        publisher_.reply(request.session, resultOf(request.command, applied));
+    }
+}
+
+void CommandExecutor::refuseCheckpoints(const std::string& reason, Cause cause) {
+    for (auto* const waiting : {&checkpointsBegun_, &checkpointsAsked_})
+        for (const Request& request : std::exchange(*waiting, {})) refuse(request, reason, cause);
+}
+
 Result<void> CommandExecutor::cancel() {
     if (change_) {
         host_.cancelChange();
@@ -155,8 +191,11 @@ void CommandExecutor::refuse(const Request& request, const std::string& reason, 
         publisher_.reply(request.session, resultOf(request.command, refused));
     else if (request.command.has_load())
         effects_.reloaded(refused);
-    else
-        host_.simulation().release(request.session);  // nothing else would end the pull of a session that has ended
+    else {
+        // Nothing else would end the pull of a session that has ended.
+        effects_.carriedOut(checkpoint::placeOf(host_.simulation()), request);
+        host_.simulation().release(request.session);
+    }
 }
 
 // Refuses the change under way and the commands that wait for its end.
@@ -191,6 +230,7 @@ void CommandExecutor::refuseSteps(std::string_view reason, Cause cause) {
 }
 
 void CommandExecutor::advanceChange(Clock::duration slice) {
+    const checkpoint::Keeper::Place at = checkpoint::placeOf(host_.simulation());
     std::optional<Result<sim::Applied>> applied;
     try {
         applied = host_.advanceChange(slice);
@@ -204,7 +244,7 @@ void CommandExecutor::advanceChange(Clock::duration slice) {
     if (!applied) return;
     const Request request = std::move(change_->request);
     change_.reset();
-    finish(request, *applied);
+    finish(request, *applied, at);
 }
 
 void CommandExecutor::answerQueries() {

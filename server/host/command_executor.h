@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checkpoint/keeper.h"
 #include "core/memory.h"
 #include "core/result.h"
 #include "host/dispatch.h"
@@ -38,6 +39,9 @@ class CommandExecutor : private ProducerCommands {
         virtual void worldChanged() = 0;    // a command has changed the world (changes_world in control.proto)
         virtual void publishChanges() = 0;  // scene facts, settings or the dial may have changed
         virtual void reloaded(const Result<sim::Applied>& done) = 0;  // reload() has ended
+        // A command has changed the simulation, or will in the steps that follow. `at`: the place before it.
+        virtual void carriedOut(const checkpoint::Keeper::Place& at, const Request& request) = 0;
+        virtual Result<void> checkCheckpoints() = 0;  // refused if none can be written
     };
 
     // All must outlive the executor.
@@ -64,6 +68,12 @@ class CommandExecutor : private ProducerCommands {
     // Begins to load a scene for the server itself; call it only while no change is under way. `name`: of the scene,
     // for viewers. Clients may cancel or replace it as any change.
     void reload(const std::string& name, MakeScene make);
+    // Returns true if a command waits for a checkpoint that has not begun.
+    [[nodiscard]] bool asksForCheckpoint() const { return !checkpointsAsked_.empty(); }
+    // The checkpoint for the commands that wait has begun.
+    void checkpointBegun();
+    // Answers the commands whose checkpoint has begun. `file`: its name.
+    void answerCheckpoints(const Result<std::string>& file);
     // Refuses all commands that have no answer yet, except those in the queue of requests.
     void refuseAll(const std::string& reason, Cause cause);
 
@@ -103,7 +113,8 @@ class CommandExecutor : private ProducerCommands {
     void serve(Request request);
     void execute(Request request);
     [[nodiscard]] std::uint64_t spheresOf(const v1::Command& command, const sim::Applied& applied) const;
-    void finish(const Request& request, const Result<sim::Applied>& applied);
+    void finish(const Request& request, const Result<sim::Applied>& applied, const checkpoint::Keeper::Place& at);
+    void refuseCheckpoints(const std::string& reason, Cause cause);
     std::optional<Result<sim::Applied>> apply(const Request& request);
     Request takeHeld();
     void refuse(const Request& request, const std::string& reason, Cause cause);
@@ -112,6 +123,7 @@ class CommandExecutor : private ProducerCommands {
     Result<void> startRecording() override { return effects_.startRecording(); }
     Result<void> stopRecording() override { return effects_.stopRecording(); }
     Result<void> cancel() override;
+    std::optional<Result<sim::Applied>> saveCheckpoint() override;
 
     SimulationHost& host_;
     Requests& requests_;
@@ -125,6 +137,7 @@ class CommandExecutor : private ProducerCommands {
     std::optional<Clock::time_point> answered_;  // time of answer_; nullopt: a newer one is needed
     std::deque<Request> inspections_;            // that wait for their time
     Clock::time_point nextInspection_{};
+    std::vector<Request> checkpointsAsked_, checkpointsBegun_;
     std::vector<Request> hashQueries_;    // queries for a hash that wait for the one under way
     std::optional<HashQueries> hashing_;  // under way
 };

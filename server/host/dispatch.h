@@ -11,7 +11,7 @@
 // The only place that maps each command of a simulating server to the code that carries it out.
 namespace spherule::host {
 
-// Carries out the commands that SimulationHost does not: recordings and cancel.
+// Carries out the commands that SimulationHost does not: recordings, checkpoints and cancel.
 class ProducerCommands {
   public:
     ProducerCommands() = default;
@@ -22,6 +22,8 @@ class ProducerCommands {
     virtual Result<void> startRecording() = 0;
     virtual Result<void> stopRecording() = 0;
     virtual Result<void> cancel() = 0;
+    // Returns nullopt when a checkpoint is being written: the result comes when it is on the disk.
+    virtual std::optional<Result<sim::Applied>> saveCheckpoint() = 0;
 };
 
 // Carries out a command, or refuses it and changes nothing. Returns nullopt when a change of the world has begun;

@@ -92,6 +92,36 @@ sim::ChangeObstacle changeOf(const v1::RemoveObstacle& message) {
             .make = [](const scene::Scene&) -> Result<std::optional<scene::Obstacle>> { return std::nullopt; }};
 }
 
+Result<sim::Push> pushOf(const v1::Push& message) {
+    sim::Push push;
+    const auto impulse = scene::vectorOf(message.impulse(), "impulse");
+    if (!impulse) return tl::unexpected(impulse.error());
+    push.impulse = *impulse;
+    if (message.has_ray()) {
+        const auto origin = scene::vectorOf(message.ray().origin(), "ray.origin");
+        if (!origin) return tl::unexpected(origin.error());
+        const auto direction = scene::vectorOf(message.ray().direction(), "ray.direction");
+        if (!direction) return tl::unexpected(direction.error());
+        push.target = sim::Ray{.origin = *origin, .direction = *direction};
+    } else if (message.target_case() == v1::Push::kSphere) {
+        push.target = message.sphere();
+    } else {
+        return fail(ErrorKind::Refused, "target", "is missing: give a sphere or a ray");
+    }
+    return push;
+}
+
+Result<sim::Pull> pullOf(const v1::Pull& message, std::uint64_t session) {
+    const auto point = scene::vectorOf(message.point(), "point");
+    if (!point) return tl::unexpected(point.error());
+    sim::Pull pull{.session = session, .sphere = message.sphere(), .point = *point};
+    if (message.has_stiffness()) pull.stiffness = message.stiffness();
+    return pull;
+}
+
+namespace {
+
+// Returns the change of a field, an emitter, a material or a group; nullopt for another command.
 std::optional<sim::Command> partCommandOf(const v1::Command& command) {
     const auto change = [](const auto& message) -> sim::Command {
         return sim::ChangePart{[message](scene::Scene& scene) { return scene::changePart(scene, message); }};
@@ -126,31 +156,40 @@ std::optional<sim::Command> partCommandOf(const v1::Command& command) {
     }
 }
 
-Result<sim::Push> pushOf(const v1::Push& message) {
-    sim::Push push;
-    const auto impulse = scene::vectorOf(message.impulse(), "impulse");
-    if (!impulse) return tl::unexpected(impulse.error());
-    push.impulse = *impulse;
-    if (message.has_ray()) {
-        const auto origin = scene::vectorOf(message.ray().origin(), "ray.origin");
-        if (!origin) return tl::unexpected(origin.error());
-        const auto direction = scene::vectorOf(message.ray().direction(), "ray.direction");
-        if (!direction) return tl::unexpected(direction.error());
-        push.target = sim::Ray{.origin = *origin, .direction = *direction};
-    } else if (message.target_case() == v1::Push::kSphere) {
-        push.target = message.sphere();
-    } else {
-        return fail(ErrorKind::Refused, "target", "is missing: give a sphere or a ray");
-    }
-    return push;
+template <class Value>
+Result<sim::Command> commandFrom(Result<Value> value) {
+    return std::move(value).map([](Value one) { return sim::Command(std::move(one)); });
 }
 
-Result<sim::Pull> pullOf(const v1::Pull& message, std::uint64_t session) {
-    const auto point = scene::vectorOf(message.point(), "point");
-    if (!point) return tl::unexpected(point.error());
-    sim::Pull pull{.session = session, .sphere = message.sphere(), .point = *point};
-    if (message.has_stiffness()) pull.stiffness = message.stiffness();
-    return pull;
+}  // namespace
+
+std::optional<Result<sim::Command>> worldCommandOf(const v1::Command& command, std::uint64_t session) {
+    switch (command.kind_case()) {
+        case v1::Command::kReset:
+            return sim::Reset{};
+        case v1::Command::kSet:
+            return commandFrom(setOf(command.set()));
+        case v1::Command::kSpawn:
+            return spawnOf(command.spawn());
+        case v1::Command::kRemove:
+            return commandFrom(removeOf(command.remove()));
+        case v1::Command::kAddObstacle:
+            return changeOf(command.add_obstacle());
+        case v1::Command::kMoveObstacle:
+            return changeOf(command.move_obstacle());
+        case v1::Command::kRemoveObstacle:
+            return changeOf(command.remove_obstacle());
+        case v1::Command::kPush:
+            return commandFrom(pushOf(command.push()));
+        case v1::Command::kPull:
+            return commandFrom(pullOf(command.pull(), session));
+        case v1::Command::kRelease:
+            return sim::Release{session};
+        default:
+            break;
+    }
+    if (auto change = partCommandOf(command)) return std::move(*change);
+    return std::nullopt;
 }
 
 Result<MakeScene> makeSceneOf(const v1::LoadScene& message, const std::string& deviceKind,

@@ -22,10 +22,10 @@ Result<sim::Remove> removeOf(const v1::Remove& message);
 sim::ChangeObstacle changeOf(const v1::AddObstacle& message);
 sim::ChangeObstacle changeOf(const v1::MoveObstacle& message);
 sim::ChangeObstacle changeOf(const v1::RemoveObstacle& message);
-// Returns the change of a field, an emitter, a material or a group; nullopt for another command.
-std::optional<sim::Command> partCommandOf(const v1::Command& command);
 Result<sim::Push> pushOf(const v1::Push& message);
 Result<sim::Pull> pullOf(const v1::Pull& message, std::uint64_t session);
+// Returns the command for a simulation, of the session; nullopt if it is none for a simulation itself, such as pause.
+std::optional<Result<sim::Command>> worldCommandOf(const v1::Command& command, std::uint64_t session);
 
 // Reads and builds a scene. May run on any thread.
 using MakeScene = std::function<Result<scene::Scene>(Progress&)>;

@@ -16,7 +16,8 @@ namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto longestWaitForEnd = 10s;  // for the current step and the recording
+constexpr auto longestWaitForEnd = 10s;          // for the current step and the recording
+constexpr auto longestWaitForCheckpoint = 120s;  // for the last checkpoint, if it is being written
 
 }  // namespace
 
@@ -115,7 +116,10 @@ bool Host::drain() {
     beginShutdown(failure());
     thread_.request_stop();
     std::unique_lock lock(mutex_);
-    const bool ended = changed_.wait_for(lock, longestWaitForEnd, [this] { return ended_; });
+    bool ended = changed_.wait_for(lock, longestWaitForEnd, [this] { return ended_; });
+    const auto checkpoints = board_.read().checkpoints;
+    if (!ended && checkpoints && checkpoints->underWay)
+        ended = changed_.wait_for(lock, longestWaitForCheckpoint, [this] { return ended_; });
     const bool lost = failure_ && failure_->kind == ErrorKind::DeviceLost;
     lock.unlock();
     const heartbeat::Pause leaving;  // the producer has ended, so no beats are expected

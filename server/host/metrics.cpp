@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -81,6 +82,16 @@ std::string Metrics::text(const ServerStatus& status, const net::Counters& net) 
              static_cast<double>(status.recording.bytes()));
     to.counter("spherule_recording_frames_lost_total", "Frames left out of recordings: the disk was too slow",
                static_cast<double>(status.recordingFramesLost));
+
+    if (const auto& checkpoints = status.checkpoints) {
+        const std::chrono::duration<double> age = std::chrono::steady_clock::now() - checkpoints->safeAt;
+        to.gauge("spherule_checkpoint_age_seconds",
+                 "Time since the state of the last checkpoint that is on the disk, or since the start", age.count());
+        to.counter("spherule_checkpoints_total", "Checkpoints written", static_cast<double>(checkpoints->written));
+        to.counter("spherule_checkpoint_failures_total", "Checkpoints that could not be written",
+                   static_cast<double>(checkpoints->failed));
+        to.gauge("spherule_checkpoint_bytes", "Size of the last checkpoint", static_cast<double>(checkpoints->bytes));
+    }
 
     if (status.diagnostics) addDiagnostics(*status.diagnostics);
 

@@ -1,13 +1,18 @@
 #include "host/run_recorder.h"
 
 #include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "codec/order.h"
 #include "core/heartbeat.h"
 #include "encode/morton.h"
 #include "host/facts_message.h"
 #include "host/to_proto.h"
+#include "scene/describe.h"
 #include "sim/pass.h"
+#include "sim/state.h"
 
 namespace spherule::host {
 
@@ -17,10 +22,56 @@ constexpr double keyframesEvery = 2;  // s simulated
 constexpr double roundedBy = 1e-6;    // tolerance (frames): times are sums of steps
 constexpr std::uint32_t order = 1;
 
+// The welcome of a recording.
+v1::ServerMessage sourceOf(const compute::Device& device) {
+    v1::ServerMessage message;
+    *message.mutable_welcome() = welcomeOf(device.info());
+    // These name the machine and the number of threads. A recording does not depend on them.
+    message.mutable_welcome()->clear_renderer();
+    message.mutable_welcome()->clear_reason();
+    return message;
+}
+
+// Returns the id of the file. It follows from all that the run follows from: the same run gives the same file.
+std::uint32_t idOf(const v1::ServerMessage& source, const recording::Options& options,
+                   const sim::Simulation& simulation, std::string_view plan) {
+    const scene::Scene& scene = simulation.scene();
+    v1::Scene description = scene::describe(scene, simulation.time(), simulation.flows().emission.progress(scene));
+    description.clear_contact_sums();  // they change nothing in a recording
+    // Paths depend on the machine. The facts have the triangles, except very many.
+    for (v1::Obstacle& obstacle : *description.mutable_obstacles()) {
+        if (obstacle.has_mesh()) obstacle.mutable_mesh()->clear_file();
+        if (obstacle.has_height_field()) obstacle.mutable_height_field()->clear_file();
+    }
+    return recording::fileIdOf(source.SerializeAsString() + factsMessage(simulation, 1).SerializeAsString() +
+                               description.SerializeAsString() +
+                               fmt::format("{} {} {} {}", sim::hashOf(sim::stateOf(scene)),
+                                           static_cast<int>(options.tier), options.rate, plan));
+}
+
+// Writes a log into a recording, between the records of another thread.
+class LogSink : public recording::ByteSink {
+  public:
+    LogSink(recording::Writer& writer, std::mutex& mutex) : writer_(writer), mutex_(mutex) {}
+
+    Result<void> write(std::string_view bytes) override {
+        const std::lock_guard lock(mutex_);
+        return writer_.addLog(bytes);
+    }
+
+  private:
+    recording::Writer& writer_;
+    std::mutex& mutex_;
+};
+
 }  // namespace
 
+std::unique_ptr<recording::ByteSink> RunRecorder::logSink() {
+    return std::make_unique<LogSink>(writer_, mutex_);
+}
+
 Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Options& options, compute::Device& device,
-                                                         sim::Simulation& simulation) {
+                                                         sim::Simulation& simulation, std::string_view plan) {
     if (simulation.count() == 0 && simulation.scene().emitters.empty())
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
     Encoding encoding;
@@ -30,16 +81,12 @@ Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Option
         encoding = std::move(*made);
     }
     // The file is created last, so that an existing file is kept if the device has no room.
-    auto writer = recording::Writer::create(options.path, options.replace);
+    const v1::ServerMessage source = sourceOf(device);
+    auto writer = recording::Writer::create(options.path, options.replace, idOf(source, options, simulation, plan));
     if (!writer) return tl::unexpected(writer.error());
     std::unique_ptr<RunRecorder> recorder(new RunRecorder(options, device, simulation, std::move(*writer)));
     recorder->encoding_ = std::move(encoding);
-    v1::ServerMessage welcome;
-    *welcome.mutable_welcome() = welcomeOf(device.info());
-    // These name the machine and the number of threads. A recording does not depend on them.
-    welcome.mutable_welcome()->clear_renderer();
-    welcome.mutable_welcome()->clear_reason();
-    auto done = recorder->add(recording::Kind::Other, welcome);
+    auto done = recorder->add(recording::Kind::Other, source);
     if (done && simulation.count() > 0) done = recorder->beginEpoch();
     if (!done) return tl::unexpected(done.error());
     return recorder;
@@ -145,6 +192,7 @@ Result<void> RunRecorder::write(recording::Kind kind) {
 
 Result<void> RunRecorder::add(recording::Kind kind, const v1::ServerMessage& message) {
     const heartbeat::Pause writing;
+    const std::lock_guard lock(mutex_);
     return writer_.add(kind, simulation_.time(), message.SerializeAsString());
 }
 

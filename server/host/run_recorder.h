@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <string_view>
 
 #include "compute/device.h"
 #include "core/result.h"
@@ -14,20 +16,23 @@
 
 namespace spherule::host {
 
-// Records a running simulation. The file does not depend on the clock. Used by the thread that owns the
-// device.
+// Records a running simulation. The file does not depend on the clock, unless it carries a log. Used by the thread that
+// owns the device.
 class RunRecorder {
   public:
-    // Begins with the present state. `device`: the device of the simulation. Both must outlive the recorder. Refused if
+    // Begins with the present state. `device`: the device of the simulation. Both must outlive the recorder. `plan`:
+    // what the run follows from beside its options and the simulation, such as its duration and its script. Refused if
     // the device has no room. For errors of the file see OutputFile.
     static Result<std::unique_ptr<RunRecorder>> create(const recording::Options& options, compute::Device& device,
-                                                       sim::Simulation& simulation);
+                                                       sim::Simulation& simulation, std::string_view plan);
 
     // Call after each step. `last`: no step follows, so this one is always recorded. So is the first step with
     // new spheres. New scene facts come before a frame of other spheres; an empty world has no frames.
     Result<void> stepped(bool last);
     Result<void> addEvent(v1::Event::Kind kind, const std::string& text);
-    // Call at the end, even if the run has failed.
+    // Where the bytes of a command log go. Any one thread may use it. The recorder must outlive it.
+    std::unique_ptr<recording::ByteSink> logSink();
+    // Call at the end, even if the run has failed. No log may be under way.
     Result<void> finish() { return writer_.finish(); }
 
     [[nodiscard]] const recording::Writer& writer() const { return writer_; }
@@ -53,6 +58,7 @@ class RunRecorder {
     recording::Options options_;
     compute::Device& device_;
     sim::Simulation& simulation_;
+    std::mutex mutex_;  // of writer_, while a log is under way
     recording::Writer writer_;
     Encoding encoding_;
     std::uint32_t epoch_ = 0;

@@ -22,20 +22,41 @@ sim::Preparation::Build builderOf(MakeScene make) {
 }  // namespace
 
 Result<std::unique_ptr<SimulationHost>> SimulationHost::open(const std::string& deviceChoice, const std::string& scene,
-                                                             const scene::Overrides& overrides) {
+                                                             const scene::Overrides& overrides,
+                                                             checkpoint::Keeper* keeper) {
     auto device = compute::openDevice(deviceChoice);
     if (!device) return tl::unexpected(device.error());
-    std::unique_ptr<SimulationHost> host(new SimulationHost(std::move(*device), overrides));
+    std::unique_ptr<SimulationHost> host(new SimulationHost(std::move(*device), scene, overrides));
+    if (keeper != nullptr) {
+        auto resumed = keeper->resume(*host->device_);
+        if (!resumed) return tl::unexpected(resumed.error());
+        host->resumed_ = std::move(*resumed);
+    }
+    if (auto& resumed = host->resumed_) {
+        host->adopt(std::move(resumed->simulation));
+        if (checkSpeed(resumed->head.speed())) host->scheduler_.setSpeed(resumed->head.speed());
+        host->paused_ = resumed->head.paused();
+        return host;
+    }
     const std::string kind = host->device_->info().kind;
     auto preparation = std::make_unique<sim::Preparation>(
         *host->device_, builderOf([=](Progress& progress) { return scene::load(scene, kind, overrides, &progress); }));
     if (auto done = preparation->finish(); !done) return tl::unexpected(done.error());
-    host->adopt(std::move(preparation));
+    host->adopt(sim::Simulation::from(std::move(preparation)));
     return host;
 }
 
-void SimulationHost::adopt(std::unique_ptr<sim::Preparation> preparation) {
-    simulation_ = sim::Simulation::from(std::move(preparation));
+v1::StateHead SimulationHost::stateHead() const {
+    v1::StateHead head;
+    head.set_device(device_->info().kind);
+    head.set_renderer(device_->info().renderer);
+    head.set_speed(scheduler_.speed());
+    head.set_paused(paused_);
+    return head;
+}
+
+void SimulationHost::adopt(std::unique_ptr<sim::Simulation> simulation) {
+    simulation_ = std::move(simulation);
     scheduler_.setStep(simulation_->scene().step);
     scheduler_.resume(Clock::now());
     pendingSteps_ = 0;
@@ -75,10 +96,7 @@ std::optional<Result<sim::Applied>> SimulationHost::change(const sim::Command& c
         return std::move(outcome->applied);
     }
     const bool reset = std::holds_alternative<sim::Reset>(command);
-    const bool beside = outcome->preparation->letsStep();
-    change_ = Change{.kind = reset    ? Change::Kind::Reset
-                             : beside ? Change::Kind::Beside
-                                      : Change::Kind::Other,
+    change_ = Change{.kind = reset ? Change::Kind::Reset : Change::Kind::Other,
                      .preparation = std::move(outcome->preparation),
                      .speed = speed};
     return std::nullopt;
@@ -137,12 +155,13 @@ sim::Applied SimulationHost::finishChange() {
     Change change = std::move(*change_);
     change_.reset();
     if (change.kind == Change::Kind::Load) {
-        adopt(std::move(change.preparation));
+        adopt(sim::Simulation::from(std::move(change.preparation)));
         return applied();
     }
+    const bool stood = !change.preparation->letsStep();
     const sim::Applied done = simulation_->adopt(std::move(change.preparation));
     if (change.speed) scheduler_.setSpeed(*change.speed);
-    if (change.kind != Change::Kind::Beside) scheduler_.resume(Clock::now());
+    if (stood) scheduler_.resume(Clock::now());
     if (change.kind == Change::Kind::Reset) pendingSteps_ = 0;
     if (simulation_->generation() != generation_) beginEpoch();
     return done;

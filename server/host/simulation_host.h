@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "checkpoint/keeper.h"
 #include "compute/device.h"
 #include "core/progress.h"
 #include "host/from_proto.h"
@@ -23,8 +24,11 @@ class SimulationHost {
   public:
     using Clock = StepScheduler::Clock;
 
+    // Goes on from a checkpoint of `keeper`, if it has one to go on from, and begins with the scene otherwise. `keeper`
+    // may be null.
     static Result<std::unique_ptr<SimulationHost>> open(const std::string& deviceChoice, const std::string& scene,
-                                                        const scene::Overrides& overrides);
+                                                        const scene::Overrides& overrides,
+                                                        checkpoint::Keeper* keeper = nullptr);
 
     // Commands. Each returns a result, or refuses and changes nothing. nullopt: a change is under way now, and
     // advanceChange() gives the result. change() and step() require that no change is under way. load() and a reset
@@ -62,29 +66,37 @@ class SimulationHost {
     [[nodiscard]] sim::Simulation& simulation() { return *simulation_; }
     [[nodiscard]] compute::Device& device() { return *device_; }
     [[nodiscard]] const scene::Overrides& overrides() const { return overrides_; }
+    // The checkpoint from which open() went on; nullopt: it began with the scene. Its simulation has been moved out.
+    [[nodiscard]] const std::optional<checkpoint::Keeper::Resumed>& resumed() const { return resumed_; }
+    // The file or the name of the scene that open() was asked for.
+    [[nodiscard]] const std::string& sceneAsked() const { return sceneAsked_; }
+    // Returns the head of a checkpoint, without the fields that describe the state.
+    [[nodiscard]] v1::StateHead stateHead() const;
     [[nodiscard]] StepScheduler& scheduler() { return scheduler_; }
 
   private:
-    SimulationHost(std::unique_ptr<compute::Device> device, const scene::Overrides& overrides)
-        : device_(std::move(device)), overrides_(overrides) {}
+    SimulationHost(std::unique_ptr<compute::Device> device, std::string sceneAsked, const scene::Overrides& overrides)
+        : device_(std::move(device)), sceneAsked_(std::move(sceneAsked)), overrides_(overrides) {}
 
     // A change of the world that is under way.
     struct Change {
-        enum class Kind : std::uint8_t { Load, Reset, Beside, Other };  // Beside: the world goes on
+        enum class Kind : std::uint8_t { Load, Reset, Other };
         Kind kind = Kind::Other;
         std::unique_ptr<sim::Preparation> preparation;
         std::optional<double> speed{};  // set together with the change
     };
     sim::Applied finishChange();
-    void adopt(std::unique_ptr<sim::Preparation> preparation);
+    void adopt(std::unique_ptr<sim::Simulation> simulation);
     void beginEpoch();
     [[nodiscard]] bool heldStill() const {
-        return change_ && change_->kind != Change::Kind::Load && change_->kind != Change::Kind::Beside;
+        return change_ && change_->kind != Change::Kind::Load && !change_->preparation->letsStep();
     }
 
     std::unique_ptr<compute::Device> device_;
+    std::string sceneAsked_;
     scene::Overrides overrides_;
     std::unique_ptr<sim::Simulation> simulation_;
+    std::optional<checkpoint::Keeper::Resumed> resumed_;
     std::optional<Change> change_;
     StepScheduler scheduler_;
     bool paused_ = false;

@@ -32,12 +32,13 @@ constexpr auto measureAfterRead = 150s;  // figures are measured this long after
 
 SimulationProducer::SimulationProducer(std::unique_ptr<SimulationHost> host, const ProducerIo& io,
                                        diagnostics::Table table, recording::LiveOptions recordings,
-                                       std::unique_ptr<SceneWatch> watch)
+                                       std::unique_ptr<SceneWatch> watch, std::unique_ptr<checkpoint::Keeper> keeper)
     : owned_(std::move(host)),
       host_(*owned_),
       board_(io.board),
       publisher_(io.publisher),
       saver_(io.saver),
+      keeper_(keeper ? std::move(keeper) : checkpoint::Keeper::open({}).value()),
       watch_(std::move(watch)),
       recorder_(std::move(recordings), welcomeOf(host_.device().info())),
       streams_(
@@ -47,14 +48,21 @@ SimulationProducer::SimulationProducer(std::unique_ptr<SimulationHost> host, con
       commands_(host_, io.requests, publisher_, *this) {}
 
 Result<void> SimulationProducer::run(const std::stop_token& stop) {
+    if (auto done = resume(); !done) return done;
     publishChanges();
+    savedVersion_ = host_.resumed() ? version_ : version_ + 1;
     if (recorder_.startsAtOnce())
         if (auto room = reserveEncoder(); !room) return room;
     if (auto done = recorder_.startFromOptions(); !done) return done;
     saver_.open();
     const Result<void> done = simulate(stop);
     saver_.close();
+    if (done)
+        keeper_->endLogInRecording(host_.simulation());
+    else
+        keeper_->dropLogInRecording();
     const Result<void> finished = finishRecording();
+    if (done) finishState();
     return done ? finished : done;
 }
 
@@ -68,6 +76,7 @@ Result<void> SimulationProducer::simulate(const std::stop_token& stop) {
         if (!done) break;
         commands_.answerQueries();
         saver_.serve(host_.simulation());
+        keepState(Clock::now());
         reportChange();
         reportWhenStopped();
         done = report();
@@ -102,7 +111,9 @@ void SimulationProducer::reloaded(const Result<sim::Applied>& done) {
 // Does a part of the step under way and of the change under way. Returns false when there is neither.
 bool SimulationProducer::advance(Result<void>& done) {
     const auto start = Clock::now();
-    const bool due = host_.running() && host_.scheduler().untilDue(start) == Clock::duration{};
+    bool due = host_.running() && host_.scheduler().untilDue(start) == Clock::duration{};
+    // A checkpoint waits for the end of the step.
+    due = due || (host_.simulation().midStep() && !host_.changing() && wantsCheckpoint(start));
     if (due) done = advanceStep(start);
     if (!done || !host_.changing()) return due;
     commands_.advanceChange(std::max<Clock::duration>(sliceOfChange, Clock::now() - start));
@@ -168,12 +179,18 @@ Result<void> SimulationProducer::advanceStep(Clock::time_point now) {
     reportNotices();
     stopAtNonFinite();
     commands_.countStep();
-    return tune(wallMs);
+    if (auto done = tune(wallMs); !done) return done;
+    keeper_->logStep(host_.simulation());
+    return {};
 }
 
 Result<void> SimulationProducer::tune(double wallMs) {
-    auto message = substepController_.stepped(host_.simulation(), wallMs);
+    sim::Simulation& simulation = host_.simulation();
+    const std::uint32_t before = simulation.scene().quality.substeps;
+    auto message = substepController_.stepped(simulation, wallMs);
     if (!message) return tl::unexpected(message.error());
+    const std::uint32_t chosen = simulation.scene().quality.substeps;
+    if (chosen != before) keeper_->logSubsteps(checkpoint::placeOf(simulation), chosen);
     if (!*message) return {};
     notify(v1::Event::TUNED, **message);
     publishChanges();
@@ -187,6 +204,7 @@ void SimulationProducer::stopAtNonFinite() {
            fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
                        host_.simulation().divergence()));
     commands_.refuseSteps("a position or velocity became non-finite", Cause::NonFinite);
+    keeper_->logRollback(checkpoint::placeOf(host_.simulation()));
     host_.simulation().rollback();
     sampler_.invalidateBaseline();
     publishChanges();
@@ -246,33 +264,6 @@ void SimulationProducer::retain(v1::ServerMessage message) {
     publisher_.retain(shared);
 }
 
-Result<void> SimulationProducer::reserveEncoder() {
-    return streams_.open(recorder_.rendition(), moment(Clock::now())).map_error([](Error error) {
-        error.message = "nothing is recorded: " + error.message;
-        return error;
-    });
-}
-
-Result<void> SimulationProducer::startRecording() {
-    if (auto room = reserveEncoder(); !room) return room;
-    return recorder_.start();
-}
-
-void SimulationProducer::reportRecording() {
-    if (!recorder_.canRecord()) return;
-    const auto state = recorder_.changedState(recording::LiveRecorder::Clock::now());
-    if (!state) return;
-    board_.update([&](ServerStatus& current) {
-        current.recording = *state;
-        current.recordings = recorder_.files();
-    });
-    if (!state->failure().empty())
-        notify(v1::Event::WARNING, fmt::format("The recording {} has ended: {}.", state->file(), state->failure()));
-    v1::ServerMessage message;
-    *message.mutable_recording() = *state;
-    retain(std::move(message));
-}
-
 // Reports the change or the step command under way to viewers, once it has taken `reportChangeAfter`.
 void SimulationProducer::reportChange() {
     const auto now = Clock::now();
@@ -316,16 +307,6 @@ void SimulationProducer::sendDial() {
     v1::ServerMessage message;
     *message.mutable_dial() = sampler_.dial();
     retain(std::move(message));
-}
-
-// Finishes the recording, and logs its end: no viewer is notified any more.
-Result<void> SimulationProducer::finishRecording() {
-    const auto last = recorder_.finish();
-    if (!last) return {};
-    if (!last->failure().empty()) return fail(ErrorKind::Refused, last->file(), last->failure());
-    spdlog::info("recorded {:.1f} s in {}, {:.1f} MB", last->duration(), last->file(),
-                 static_cast<double>(last->bytes()) / 1e6);
-    return {};
 }
 
 v1::Status SimulationProducer::status(Clock::time_point now) {

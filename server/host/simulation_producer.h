@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "checkpoint/keeper.h"
 #include "diagnostics/substep_controller.h"
 #include "host/command_executor.h"
 #include "host/diagnostics_sampler.h"
@@ -20,13 +21,15 @@
 namespace spherule::host {
 
 // Produces the frames of a simulation: carries out commands, steps the simulation and encodes its states. It waits for
-// a command, for the next step or for the device to end one. It never waits for the network, for the disk or for the
-// copy of a state.
+// a command, for the next step or for the device to end one. It never waits for the network or for the disk. It stands
+// still while the state for a checkpoint is copied.
 class SimulationProducer : public FrameProducer, private CommandExecutor::Effects {
   public:
-    // `watch`: of the file of the scene, which is loaded again when it changes; null: none.
+    // `watch`: of the file of the scene, which is loaded again when it changes; null: none. `keeper`: writes the
+    // checkpoints and the command log; null: there are none.
     SimulationProducer(std::unique_ptr<SimulationHost> host, const ProducerIo& io, diagnostics::Table table,
-                       recording::LiveOptions recordings, std::unique_ptr<SceneWatch> watch = nullptr);
+                       recording::LiveOptions recordings, std::unique_ptr<SceneWatch> watch = nullptr,
+                       std::unique_ptr<checkpoint::Keeper> keeper = nullptr);
 
     // Runs until stopped, until the device is lost, or until the recording of the options fails.
     Result<void> run(const std::stop_token& stop) override;
@@ -36,6 +39,15 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
 
     // Runs until stopped, or until the device is lost.
     Result<void> simulate(const std::stop_token& stop);
+    Result<void> resume();
+    void carriedOut(const checkpoint::Keeper::Place& at, const Request& request) override;
+    Result<void> checkCheckpoints() override;
+    [[nodiscard]] v1::StateHead stateHead();
+    [[nodiscard]] bool wantsCheckpoint(Clock::time_point now) const;
+    void keepState(Clock::time_point now);
+    void saveState(Clock::time_point now);
+    void reportCheckpoints();
+    void finishState();
     bool advance(Result<void>& done);
     Result<void> advanceStep(Clock::time_point now);
     void reportChange();
@@ -53,7 +65,8 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     void reportWhenStopped();
     Result<void> reserveEncoder();
     Result<void> startRecording() override;
-    Result<void> stopRecording() override { return recorder_.stop(); }
+    Result<void> stopRecording() override;
+    void beginLogInRecording();
     void produce(Clock::time_point now);
     StateStreams::Moment moment(Clock::time_point now);
     v1::Frame head(Clock::time_point now);
@@ -71,6 +84,9 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     StatusBoard& board_;
     net::Publisher& publisher_;
     SceneSaver& saver_;
+    std::unique_ptr<checkpoint::Keeper> keeper_;
+    std::uint64_t savedVersion_ = 0;  // of the world in the last checkpoint
+    Clock::time_point savedAt_{};
     std::unique_ptr<SceneWatch> watch_;
     std::string saved_;  // the file for which the watched scene was loaded last
     recording::LiveRecorder recorder_;

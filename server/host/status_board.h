@@ -32,6 +32,15 @@ struct ServerStatus {
     v1::Recording recording;                     // the present recording, or the last one
     std::vector<std::string> recordings;         // files in the folder of recordings that this server has begun
     std::uint64_t recordingFramesLost = 0;
+    // The checkpoints; nullopt: there is no folder for them.
+    struct Checkpoints {
+        std::uint64_t written = 0;
+        std::uint64_t failed = 0;
+        std::uint64_t bytes = 0;                         // of the last one
+        std::chrono::steady_clock::time_point safeAt{};  // when the last one was copied; at first, the start
+        bool underWay = false;
+    };
+    std::optional<Checkpoints> checkpoints;
     std::vector<double> passSeconds;  // device time (s) while passes were timed, by sim::Pass
 
     [[nodiscard]] bool isFinal() const { return state == "draining" || state == "failed"; }

@@ -156,6 +156,7 @@ v1::Applied appliedMessage(const sim::Applied& applied) {
     if (applied.removed) message.set_removed(*applied.removed);
     if (applied.obstacle) message.set_obstacle(*applied.obstacle);
     if (applied.number) message.set_number(*applied.number);
+    if (!applied.file.empty()) message.set_file(utf8(applied.file));
     if (applied.force) scene::setVector(*message.mutable_force(), *applied.force);
     if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
     if (applied.inspected) *message.mutable_inspected() = inspectedMessage(*applied.inspected);
@@ -175,8 +176,8 @@ std::string fieldOf(const v1::Command& command, std::string_view where) {
 
 }  // namespace
 
-static_assert(static_cast<int>(Cause::Stopping) == v1::Refused::STOPPING &&
-              v1::Refused::Cause_MAX == v1::Refused::STOPPING);
+static_assert(static_cast<int>(Cause::NoCheckpoints) == v1::Refused::NO_CHECKPOINTS &&
+              v1::Refused::Cause_MAX == v1::Refused::NO_CHECKPOINTS);
 
 v1::CommandResult resultOf(const v1::Command& command, const Result<sim::Applied>& applied) {
     v1::CommandResult result;

@@ -173,11 +173,13 @@ void Session::fault(const std::exception& error) {
 // read and close, which wait for each other forever if the peer breaks the protocol during the closing handshake.
 void Session::abort(CloseCause cause) {
     if (finished_) return;
+    // A cancelled read may end before emit() returns, and finishes the session with this cause.
+    if (!std::exchange(closing_, true)) cause_ = cause;
     ErrorCode ignored;
     beast::get_lowest_layer(stream_).socket().set_option(asio::socket_base::linger(true, 0), ignored);
     cancelRead_.emit(asio::cancellation_type::terminal);
     cancelClose_.emit(asio::cancellation_type::terminal);
-    finish(closing_ ? cause_ : cause);
+    finish(cause_);
 }
 
 }  // namespace spherule::net

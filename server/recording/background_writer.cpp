@@ -10,9 +10,10 @@ namespace spherule::recording {
 
 namespace {
 
-// Limits of the queue (bytes): for frames, and for all records.
+// Limits of the queue (bytes): for frames, for all records, and for a log.
 constexpr std::size_t mostWaiting = 64U << 20U;
 constexpr std::size_t mostNeeded = 256U << 20U;
+constexpr std::size_t mostLog = mostWaiting / 4;  // beyond them a log waits, so that frames have room
 
 using namespace std::chrono_literals;
 constexpr auto checkEvery = 1s;  // checks that the file still exists, while no record comes
@@ -27,7 +28,7 @@ Result<std::unique_ptr<BackgroundWriter>> BackgroundWriter::create(const std::st
                                                                    std::uint64_t mostBytes) {
     auto queue = memory::Claim::make(path, "frames that wait for the disk", mostWaiting);
     if (!queue) return tl::unexpected(queue.error());
-    auto writer = Writer::create(path, replace);
+    auto writer = Writer::create(path, replace, randomFileId());
     if (!writer) return tl::unexpected(writer.error());
     return std::unique_ptr<BackgroundWriter>(new BackgroundWriter(std::move(*writer), mostBytes, std::move(*queue)));
 }
@@ -36,6 +37,7 @@ BackgroundWriter::BackgroundWriter(Writer writer, std::uint64_t mostBytes, memor
     : queue_(std::move(queue)), writer_(std::move(writer)), mostBytes_(mostBytes), thread_([this] { write(); }) {}
 
 BackgroundWriter::~BackgroundWriter() {
+    endLog();
     finish();
 }
 
@@ -47,12 +49,33 @@ bool BackgroundWriter::add(Kind kind, double time, codec::SharedMessage message)
     if (bytes > mostNeeded) {
         progress_.failure = "the disk is too slow: 256 MiB wait to be written";
         finishing_ = true;
+        logging_ = false;
     } else {
         waitingBytes_ = bytes;
-        waiting_.push_back({kind, time, std::move(message)});
+        waiting_.push_back({kind, time, std::move(message), {}});
     }
     changed_.notify_all();
     return true;
+}
+
+void BackgroundWriter::addLog(std::string_view bytes) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return progress_.ended || !logging_ || waitingBytes_ <= mostLog; });
+    if (progress_.ended || !logging_) return;
+    waitingBytes_ += bytes.size();
+    waiting_.push_back({.kind = Kind::Log, .time = 0, .message = nullptr, .log = std::string(bytes)});
+    changed_.notify_all();
+}
+
+void BackgroundWriter::beginLog() {
+    const std::lock_guard lock(mutex_);
+    logging_ = !progress_.ended && !finishing_;
+}
+
+void BackgroundWriter::endLog() {
+    const std::lock_guard lock(mutex_);
+    logging_ = false;
+    changed_.notify_all();
 }
 
 void BackgroundWriter::finish() {
@@ -89,7 +112,7 @@ void BackgroundWriter::write() {
 // Returns false when no record follows.
 Result<bool> BackgroundWriter::waitForItems(std::vector<Item>& items) {
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, checkEvery, [this] { return !waiting_.empty() || finishing_; })) {
+    while (!changed_.wait_for(lock, checkEvery, [this] { return !waiting_.empty() || (finishing_ && !logging_); })) {
         lock.unlock();
         if (auto there = writer_.stillThere(); !there) return tl::unexpected(there.error());
         lock.lock();
@@ -97,21 +120,24 @@ Result<bool> BackgroundWriter::waitForItems(std::vector<Item>& items) {
     items.assign(std::make_move_iterator(waiting_.begin()), std::make_move_iterator(waiting_.end()));
     waiting_.clear();
     waitingBytes_ = 0;
+    changed_.notify_all();  // addLog() may wait
     return !items.empty();
 }
 
 Result<void> BackgroundWriter::writeItems(const std::vector<Item>& items) {
     for (const Item& item : items) {
-        const std::string& bytes = item.message->binary();
+        const std::string& bytes = item.bytes();
         if (mostBytes_ > 0 && writer_.bytesWith(bytes.size()) > mostBytes_) {
             const std::lock_guard lock(mutex_);
             finishing_ = true;
+            logging_ = false;
             waiting_.clear();
             progress_.failure =
                 fmt::format("it has reached its limit of {:.1f} MB", static_cast<double>(mostBytes_) / 1e6);
             break;
         }
-        if (auto done = writer_.add(item.kind, item.time, bytes); !done) return done;
+        const auto done = item.message ? writer_.add(item.kind, item.time, bytes) : writer_.addLog(bytes);
+        if (!done) return done;
     }
     const std::lock_guard lock(mutex_);
     progress_.bytes = writer_.bytes();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -19,8 +20,8 @@ namespace spherule::recording {
 // Writes a recording on its own thread, so that the caller never waits for the disk. Used by one thread.
 class BackgroundWriter {
   public:
-    // Same as Writer::create, and Refused if there is no memory for the queue. The recording ends with a failure when
-    // it reaches `mostBytes`; 0: no limit.
+    // Same as Writer::create with a random id, and Refused if there is no memory for the queue. The recording ends with
+    // a failure when it reaches `mostBytes`; 0: no limit.
     static Result<std::unique_ptr<BackgroundWriter>> create(const std::string& path, bool replace,
                                                             std::uint64_t mostBytes);
     ~BackgroundWriter();  // finishes the recording and waits for the thread
@@ -30,6 +31,12 @@ class BackgroundWriter {
     // Queues a record, see Writer::add. Returns false when the queue is full and the record is dropped. Scene, order
     // and settings are never dropped; the recording ends when they need too much memory.
     [[nodiscard]] bool add(Kind kind, double time, codec::SharedMessage message);
+    // Queues bytes of a command log. May be called by any thread, which waits while the queue is full. After
+    // beginLog() the recording does not end before endLog(), except by an error or its limit: then the bytes are
+    // dropped.
+    void addLog(std::string_view bytes);
+    void beginLog();
+    void endLog();
     // Ends the recording after the queued records.
     void finish();
     void wait();  // until the recording has ended
@@ -45,8 +52,11 @@ class BackgroundWriter {
   private:
     struct Item {
         Kind kind;
-        double time;
-        codec::SharedMessage message;
+        double time;                   // not of a log
+        codec::SharedMessage message;  // null: a log
+        std::string log;
+
+        [[nodiscard]] const std::string& bytes() const { return message ? message->binary() : log; }
     };
 
     BackgroundWriter(Writer writer, std::uint64_t mostBytes, memory::Claim queue);
@@ -63,6 +73,7 @@ class BackgroundWriter {
     std::deque<Item> waiting_;
     std::size_t waitingBytes_ = 0;
     bool finishing_ = false;
+    bool logging_ = false;
     Progress progress_;
     std::jthread thread_;
 };

@@ -9,7 +9,8 @@ namespace spherule::recording {
 
 constexpr std::array<unsigned char, 8> fileMagic = {'S', 'P', 'H', 'R', 'E', 'C', '\r', '\n'};
 constexpr std::array<unsigned char, 8> endMagic = {'S', 'P', 'H', 'E', 'N', 'D', '\r', '\n'};
-constexpr std::uint32_t formatVersion = 1;
+constexpr std::uint32_t formatVersion = 2;  // written
+constexpr std::uint32_t oldestVersion = 1;  // read, as all versions up to formatVersion
 
 // Kind of a record, so that a reader can skip records without parsing them.
 enum class Kind : std::uint32_t {
@@ -21,8 +22,12 @@ enum class Kind : std::uint32_t {
     Resync = 6,    // the previous frame as a keyframe, for readers that start here
     Delta = 7,     // a frame that needs the previous one
     Index = 8,     // index of the file; the last record
+    Log = 9,       // bytes of a command log; from version 2 on
 };
 
+constexpr bool isKnown(Kind kind, std::uint32_t version) {
+    return kind >= Kind::Scene && kind <= (version == 1 ? Kind::Index : Kind::Log);
+}
 constexpr bool isFrame(Kind kind) {
     return kind == Kind::Keyframe || kind == Kind::Delta;
 }
@@ -33,7 +38,7 @@ constexpr bool isIndexed(Kind kind) {
 }
 
 // Bytes.
-constexpr std::size_t fileHeadBytes = 16;    // magic, version, 0
+constexpr std::size_t fileHeadBytes = 16;    // magic, version, id
 constexpr std::size_t recordHeadBytes = 16;  // length of the payload, kind, time
 constexpr std::size_t checksumBytes = 8;
 constexpr std::size_t entryBytes = 24;      // offset, time, kind, 0

@@ -33,6 +33,28 @@ std::string fileNameOf(std::string name) {
     return name.empty() ? "scene" : name.substr(0, longestName);
 }
 
+// Writes a log into a recording.
+class LogSink : public ByteSink {
+  public:
+    explicit LogSink(std::shared_ptr<BackgroundWriter> writer) : writer_(std::move(writer)) { writer_->beginLog(); }
+    LogSink(const LogSink&) = delete;
+    LogSink& operator=(const LogSink&) = delete;
+    ~LogSink() override { writer_->endLog(); }
+
+    // The recording reports errors.
+    Result<void> write(std::string_view bytes) override {
+        writer_->addLog(bytes);
+        return {};
+    }
+    Result<void> close() override {
+        writer_->endLog();
+        return {};
+    }
+
+  private:
+    std::shared_ptr<BackgroundWriter> writer_;
+};
+
 }  // namespace
 
 LiveRecorder::LiveRecorder(LiveOptions options, v1::Welcome source)
@@ -48,6 +70,9 @@ Result<void> LiveRecorder::startFromOptions() {
 }
 
 Result<void> LiveRecorder::start() {
+    if (writer_ && stopping_)
+        return fail(ErrorKind::Refused, "",
+                    fmt::format("{} is still being written: wait until it is done", state_.file()), Cause::Busy);
     if (writer_)
         return fail(ErrorKind::Refused, "", fmt::format("{} is being recorded already", state_.file()),
                     Cause::RecordingAlready);
@@ -108,6 +133,9 @@ Result<void> LiveRecorder::start(const std::string& path, bool replace, std::uin
     auto writer = BackgroundWriter::create(path, replace, mostBytes);
     if (!writer) return tl::unexpected(writer.error());
     writer_ = std::move(*writer);
+    wantsLog_ = options_.log;
+    stopping_ = false;
+    endedEmpty_ = false;
     state_.Clear();
     state_.set_active(true);
     state_.set_file(utf8(path));
@@ -121,8 +149,14 @@ Result<void> LiveRecorder::start(const std::string& path, bool replace, std::uin
 
 Result<void> LiveRecorder::stop() {
     if (!writer_) return fail(ErrorKind::Refused, "", "nothing is being recorded", Cause::NotRecording);
+    wantsLog_ = false;
+    stopping_ = true;
     writer_->finish();
     return {};
+}
+
+std::unique_ptr<ByteSink> LiveRecorder::logSink() {
+    return std::make_unique<LogSink>(writer_);
 }
 
 void LiveRecorder::retain(codec::SharedMessage message) {
@@ -231,10 +265,10 @@ std::optional<v1::Recording> LiveRecorder::changedState(Clock::time_point now) {
         state_.set_bytes(progress.bytes);
         if (progress.ended) {
             state_.set_active(false);
-            state_.set_failure(progress.failure.empty() && progress.frames == 0
-                                   ? "nothing was recorded: no frame has come"
-                                   : progress.failure);
+            endedEmpty_ = progress.failure.empty() && progress.frames == 0;
+            state_.set_failure(endedEmpty_ ? "nothing was recorded: no frame has come" : progress.failure);
             writer_.reset();
+            wantsLog_ = false;
             reported_ = false;
         } else if (now - reportedAt_ >= stateEvery) {
             reported_ = false;

@@ -5,12 +5,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "codec/rendition.h"
 #include "core/result.h"
 #include "recording/background_writer.h"
 #include "recording/options.h"
+#include "recording/output_file.h"
 
 namespace spherule::recording {
 
@@ -28,7 +30,14 @@ class LiveRecorder {
     // Starts a recording in a new file of the options' folder. Refused while it records, without a folder, and if the
     // folder is full.
     Result<void> start();
+    // Ends the recording. One that has a log ends when the log has been closed.
     Result<void> stop();
+
+    // Returns true once for each recording that should have a command log.
+    bool wantsLog() { return std::exchange(wantsLog_, false); }
+    // Where the bytes of the log go. May outlive the recorder. The recording does not end before it is closed or
+    // destroyed.
+    std::unique_ptr<ByteSink> logSink();
 
     // The messages for viewers, when they are sent. broadcast() records only events.
     void retain(codec::SharedMessage message);
@@ -42,6 +51,8 @@ class LiveRecorder {
     std::optional<v1::Recording> changedState(Clock::time_point now);
     // Ends the recording and waits for the disk. Returns its last state; nullopt if there is no recording.
     std::optional<v1::Recording> finish();
+    // Returns true if the last recording ended in order, but without a frame.
+    [[nodiscard]] bool endedEmpty() const { return endedEmpty_; }
     [[nodiscard]] const codec::Rendition& rendition() const { return rendition_; }
     [[nodiscard]] bool startsAtOnce() const { return !options_.path.empty(); }
     [[nodiscard]] bool canRecord() const { return !options_.folder.empty() || !options_.path.empty(); }
@@ -62,7 +73,7 @@ class LiveRecorder {
     codec::Rendition rendition_;
     codec::SharedMessage source_;
     codec::SharedMessage scene_, order_, settings_;  // the latest, for a recording that starts
-    std::unique_ptr<BackgroundWriter> writer_;
+    std::shared_ptr<BackgroundWriter> writer_;
     v1::Recording state_;
     std::vector<std::string> files_;
     std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nullopt: a keyframe is needed
@@ -73,6 +84,9 @@ class LiveRecorder {
     double begin_ = 0, time_ = 0, offset_ = 0;  // s
     double simTime_ = 0;                        // s, simulated time of the newest frame
     bool timed_ = false;
+    bool wantsLog_ = false;
+    bool stopping_ = false;  // stop() was called, and the writer has not ended
+    bool endedEmpty_ = false;
     bool waits_ = false;     // for the world to advance
     bool reported_ = false;  // the present state has been returned by changedState()
     Clock::time_point reportedAt_{};

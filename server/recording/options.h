@@ -13,6 +13,7 @@ struct Options {
     v1::Tier tier = v1::FINE;
     double rate = 30;      // frames per second; in `run`, per simulated second
     bool replace = false;  // replace an existing file; in `run`, also the file of --dump
+    bool log = false;      // the recording carries a command log
 };
 
 // Options of recordings while viewers watch.

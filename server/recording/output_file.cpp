@@ -60,6 +60,14 @@ tl::unexpected<Error> cannotOpen(const std::string& path, int error) {
 
 }  // namespace
 
+int syncNamesIn(const std::string& folder) {
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return 0;  // it may be written to, but not be read
+    const int error = fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    return error == EINVAL || error == EROFS ? 0 : error;
+}
+
 Result<OutputFile> OutputFile::create(const std::string& path, bool replace, Appears appears) {
     struct stat about {};
     const bool exists = lstat(path.c_str(), &about) == 0;
@@ -90,6 +98,7 @@ Result<OutputFile> OutputFile::create(const std::string& path, bool replace, App
         return cannotOpen(path, errno);
     if (S_ISREG(about.st_mode)) file.place_ = path;
     file.stale_ = exists;
+    file.unnamed_ = !exists && !file.place_.empty();
     return file;
 }
 
@@ -99,6 +108,22 @@ Result<OutputFile> OutputFile::standardOutput() {
     return OutputFile("standard output", descriptor);
 }
 
+Result<OutputFile> OutputFile::goOn(const std::string& path, std::uint64_t bytes) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor < 0) return cannotOpen(path, errno);
+    OutputFile file(path, descriptor);
+    file.persistent_ = true;
+    struct stat about {};
+    if (fstat(descriptor, &about) != 0) return cannotOpen(path, errno);
+    if (!S_ISREG(about.st_mode) || static_cast<std::uint64_t>(about.st_size) < bytes)
+        return fail(ErrorKind::Input, path, fmt::format("is no file of at least {} bytes any more", bytes));
+    const auto end = static_cast<off_t>(bytes);
+    if (ftruncate(descriptor, end) != 0 || lseek(descriptor, end, SEEK_SET) != end) return cannotOpen(path, errno);
+    file.place_ = path;
+    file.size_ = file.written_ = bytes;
+    return file;
+}
+
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
@@ -106,6 +131,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       target_(std::move(other.target_)),
       replace_(other.replace_),
       stale_(other.stale_),
+      unnamed_(other.unnamed_),
       persistent_(other.persistent_),
       buffer_(std::move(other.buffer_)),
       size_(other.size_),
@@ -147,10 +173,15 @@ Result<void> OutputFile::flush() {
     return done ? stillThere() : done;
 }
 
-Result<void> OutputFile::close() {
+Result<void> OutputFile::sync() {
     if (auto done = flush(); !done) return done;
     // Pipes and some file systems do not support fsync.
     if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) return cannot(errno);
+    return std::exchange(unnamed_, false) ? syncName(place_) : Result<void>();
+}
+
+Result<void> OutputFile::close() {
+    if (auto done = sync(); !done) return done;
     if (auto done = publish(); !done) return done;
     persistent_ = true;
     if (::close(std::exchange(descriptor_, -1)) != 0) return cannot(errno);
@@ -161,13 +192,20 @@ Result<void> OutputFile::close() {
 Result<void> OutputFile::publish() {
     if (target_.empty()) return {};
     if (!replace_) {
-        if (renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return {};
+        if (renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0)
+            return syncName(target_);
         if (errno == EEXIST) return isThere(path_);
         if (errno != EINVAL && errno != ENOSYS) return cannot(errno);
         // This file system does not support RENAME_NOREPLACE.
         if (access(target_.c_str(), F_OK) == 0) return isThere(path_);
     }
     if (std::rename(place_.c_str(), target_.c_str()) != 0) return cannot(errno);
+    return syncName(target_);
+}
+
+Result<void> OutputFile::syncName(const std::string& path) {
+    const int error = syncNamesIn(std::filesystem::absolute(path).parent_path().string());
+    if (error != 0) return cannot(error);
     return {};
 }
 

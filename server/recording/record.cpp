@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <random>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,21 +13,40 @@
 
 namespace spherule::recording {
 
-std::string recordBytes(Kind kind, double time, std::string_view payload) {
+std::string FileHead::bytes() const {
+    std::string bytes(fileMagic.begin(), fileMagic.end());
+    append(bytes, version);
+    append(bytes, id);
+    return bytes;
+}
+
+std::uint32_t fileIdOf(std::string_view content) {
+    return static_cast<std::uint32_t>(XXH3_64bits(content.data(), content.size()));
+}
+
+std::uint32_t randomFileId() {
+    return std::random_device()();
+}
+
+// In version 1 a record has the same checksum at each place of each file.
+std::uint64_t checksumOf(std::string_view record, const FileHead& file, std::uint64_t offset) {
+    const std::uint64_t own = XXH3_64bits(record.data(), record.size());
+    if (file.version == 1) return own;
+    std::string placed;
+    append(placed, own);
+    append(placed, offset);
+    append(placed, file.id);
+    return XXH3_64bits(placed.data(), placed.size());
+}
+
+std::string recordBytes(Kind kind, double time, std::string_view payload, const FileHead& file, std::uint64_t offset) {
     std::string bytes;
     bytes.reserve(recordHeadBytes + payload.size() + checksumBytes);
     append(bytes, static_cast<std::uint32_t>(payload.size()));
     append(bytes, static_cast<std::uint32_t>(kind));
     append(bytes, time);
     bytes += payload;
-    append(bytes, std::uint64_t{XXH3_64bits(bytes.data(), bytes.size())});
-    return bytes;
-}
-
-std::string fileHead() {
-    std::string bytes(fileMagic.begin(), fileMagic.end());
-    append(bytes, formatVersion);
-    append(bytes, std::uint32_t{0});
+    append(bytes, checksumOf(bytes, file, offset));
     return bytes;
 }
 
@@ -40,9 +60,15 @@ Result<RecordFile> RecordFile::open(const std::string& path) {
         return no(fmt::format("is no recording: it has only {} bytes", file.size()));
     if (std::memcmp(head.data(), fileMagic.data(), fileMagic.size()) != 0)
         return no("is no recording: it does not begin like one");
-    if (const auto version = numberAt<std::uint32_t>(head, fileMagic.size()); version != formatVersion)
-        return no(fmt::format("is of version {} of the format, this program reads version {}", version, formatVersion));
-    if (numberAt<std::uint32_t>(head, fileMagic.size() + 4) != 0) return no("is no recording: its head is damaged");
+    file.head_.version = numberAt<std::uint32_t>(head, fileMagic.size());
+    file.head_.id = numberAt<std::uint32_t>(head, fileMagic.size() + 4);
+    const auto& [version, id] = file.head_;
+    if (version > formatVersion)
+        return no(
+            fmt::format("is of version {} of the format; this program, spherule {}, reads versions {} and {}: "
+                        "use a newer spherule",
+                        version, SPHERULE_VERSION, oldestVersion, formatVersion));
+    if (version < oldestVersion || (version == 1 && id != 0)) return no("is no recording: its head is damaged");
     return file;
 }
 
@@ -67,7 +93,7 @@ Result<Record> RecordFile::readHead(std::uint64_t offset) const {
                   .time = numberAt<double>(head, 8),
                   .payload = {},
                   .end = offset + whole};
-    if (record.kind < Kind::Scene || record.kind > Kind::Index || !std::isfinite(record.time))
+    if (!isKnown(record.kind, head_.version) || !std::isfinite(record.time))
         return bad(offset, "is damaged: its head is invalid");
     return record;
 }
@@ -78,7 +104,7 @@ Result<Record> RecordFile::read(std::uint64_t offset) const {
     std::string bytes(record->end - offset, '\0');
     if (!get(offset, bytes.data(), bytes.size())) return bad(offset, "cannot be read");
     const std::size_t hashed = bytes.size() - checksumBytes;
-    if (numberAt<std::uint64_t>(bytes, hashed) != XXH3_64bits(bytes.data(), hashed))
+    if (numberAt<std::uint64_t>(bytes, hashed) != checksumOf({bytes.data(), hashed}, head_, offset))
         return bad(offset, "is damaged: its checksum differs");
     bytes.resize(hashed);
     bytes.erase(0, recordHeadBytes);

@@ -142,7 +142,8 @@ Result<bool> Recording::next() {
         if (!record) return tl::unexpected(record.error());
         if (record->kind == Kind::Other) collectEvent(*record);
         // A resync repeats the previous frame.
-        if (record->kind == Kind::Resync || record->kind == Kind::Other || record->kind == Kind::Index) {
+        const Kind kind = record->kind;
+        if (kind == Kind::Resync || kind == Kind::Other || kind == Kind::Index || kind == Kind::Log) {
             offset_ = record->end;
             continue;
         }

@@ -15,12 +15,15 @@ namespace spherule::recording {
 // at the end. Used by one thread. After an error nothing more may be written.
 class Writer {
   public:
-    // Input if the file exists and `replace` is false.
-    static Result<Writer> create(const std::string& path, bool replace);
+    // `id`: of the file, see fileIdOf() and randomFileId(). Input if the file exists and `replace` is false.
+    static Result<Writer> create(const std::string& path, bool replace, std::uint32_t id);
 
     // `time` (s simulated) must not decrease. `message`: a ServerMessage in binary form. Scene and order must come
     // before their frames.
     Result<void> add(Kind kind, double time, std::string_view message);
+
+    // Adds the next bytes of a command log, with the time of the record before.
+    Result<void> addLog(std::string_view bytes) { return add(Kind::Log, time_, bytes); }
 
     // Refused if the file has been deleted.
     Result<void> stillThere() { return file_.stillThere(); }
@@ -33,9 +36,10 @@ class Writer {
     [[nodiscard]] std::uint64_t frames() const { return index_.frames; }
 
   private:
-    explicit Writer(OutputFile file) : file_(std::move(file)) {}
+    Writer(OutputFile file, std::uint32_t id) : file_(std::move(file)), head_{.id = id} {}
 
     OutputFile file_;
+    FileHead head_;
     Index index_;
     double time_ = 0;
     std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -137,6 +138,11 @@ Ends readEnds(Check& check, const Numbers& from, const Numbers& to, const std::s
         ends.to = ends.from + glm::dvec3(0, 0, 1);
     }
     return ends;
+}
+
+glm::dvec3 unitVector(const glm::dvec3& vector) {
+    const double length = glm::length(vector);
+    return std::abs(length - 1) < 1e-15 ? vector : vector / length;
 }
 
 void refuseHollow(Check& check, bool hollow, const std::string& field) {

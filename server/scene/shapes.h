@@ -71,6 +71,7 @@ using ShapePointer = std::shared_ptr<const Shape>;
 struct ShapeInput {
     std::optional<std::filesystem::path> directory{};  // of files that the scene names; nullopt: it may not name any
     double longestSide = 1;                            // of the bounds (m)
+    std::shared_ptr<const Mesh> mesh{};                // what would be read from its bytes; null: it has to be read
 };
 
 // Reads the shape of an obstacle, whose field in the scene is `field`. Refuses an obstacle without one.
@@ -89,6 +90,10 @@ struct Ends {
 };
 Ends readEnds(Check& check, const google::protobuf::RepeatedField<double>& from,
               const google::protobuf::RepeatedField<double>& to, const std::string& field);
+
+// Returns the vector with unit length. One that has it stays as it is, so that a saved scene is the same when it is
+// saved again.
+glm::dvec3 unitVector(const glm::dvec3& vector);
 
 // Refuses a hollow shape that is open: both of its sides are free.
 void refuseHollow(Check& check, bool hollow, const std::string& field);

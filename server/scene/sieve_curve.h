@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "scene/random.h"
@@ -10,7 +11,9 @@ namespace spherule::scene {
 // compiler and mathematical library.
 class SieveCurve {
   public:
-    enum class Of { Number, Mass };
+    enum class Of : std::uint8_t { Number, Mass };
+
+    SieveCurve() = default;  // without radii: to be filled by archive()
 
     // `radii` (m): at least two, each above the one before. `shares`: for each radius, the share of all spheres (their
     // number or their mass) that are at most so large: from 0 to 1, none below the one before.
@@ -21,9 +24,13 @@ class SieveCurve {
     // Returns a radius (m).
     [[nodiscard]] double draw(Random& random) const;
     [[nodiscard]] double meanCube() const;  // mean of r^3 (m^3)
+    template <class Archive>
+    void archive(Archive& a) {
+        a(of_, radii_, numbers_);
+    }
 
   private:
-    Of of_;
+    Of of_ = Of::Number;
     std::vector<double> radii_;
     std::vector<double> numbers_;  // below each radius, in any unit
 };

@@ -11,6 +11,7 @@ namespace {
 constexpr unsigned sorted = 1;
 constexpr unsigned cleared = 2;
 constexpr unsigned byId = 4;
+constexpr unsigned scratch = 8;
 
 std::string wordsOf(std::string_view type) {
     if (type == "vec4") return "rrrr";
@@ -33,7 +34,8 @@ ArrayType row(std::string name, std::string_view type, Extent extent, unsigned f
             .extent = extent,
             .sorted = (flags & sorted) != 0,
             .cleared = (flags & cleared) != 0,
-            .byId = (flags & byId) != 0};
+            .byId = (flags & byId) != 0,
+            .scratch = (flags & scratch) != 0};
 }
 
 const std::array<ArrayType, arrayCount>& rows() {

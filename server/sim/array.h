@@ -59,6 +59,7 @@ struct ArrayType {
     bool sorted = false;   // a column: a rebuild sorts it into cell order with the other columns
     bool cleared = false;  // zeroed when spheres are uploaded
     bool byId = false;     // indexed by handle, not by slot
+    bool scratch = false;  // between two steps, its content does not matter
 };
 
 const ArrayType& typeOf(Array array);

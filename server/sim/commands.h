@@ -98,6 +98,7 @@ struct Applied {
     std::optional<std::uint32_t> removed{};   // spheres that a Remove or RemoveGroup removed
     std::optional<std::uint32_t> obstacle{};  // number of the obstacle of a ChangeObstacle
     std::optional<std::uint32_t> number{};    // of the part of a ChangePart or RemoveGroup
+    std::string file{};                       // name of the checkpoint that was written
     std::optional<Statistics> statistics{};   // of a query
     std::optional<Inspection> inspected{};    // of an inspection
     std::optional<glm::dvec3> force{};        // of the spring of a Pull (N)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "scene/scene.h"
@@ -32,6 +33,17 @@ class Drives {
     [[nodiscard]] std::vector<scene::Drive> states(const scene::Scene& scene) const;
     // Returns to such states, of as many bodies, at a time (s simulated).
     void restore(scene::Scene& scene, const std::vector<scene::Drive>& states, double time);
+    // The data beyond the states. Loads only data of as many bodies.
+    template <class Archive>
+    void archive(Archive& a) {
+        std::vector<Body> bodies = bodies_;
+        a(bodies);
+        if constexpr (Archive::loads) {
+            if (bodies.size() != bodies_.size()) return a.refuse();
+            for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].obstacle = bodies_[k].obstacle;
+            bodies_ = std::move(bodies);
+        }
+    }
 
   private:
     struct Body {
@@ -39,6 +51,11 @@ class Drives {
         double rate = 0;     // m/s or rad/s, at the begin of the substep
         double held = 0;     // N s or N m s, of the last substep
         double heldFor = 0;  // s, its length
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(rate, held, heldFor);
+        }
     };
 
     bool balanced_;

@@ -41,6 +41,10 @@ class Emission {
     };
     [[nodiscard]] Counts counts(const scene::Scene& scene, std::size_t emitter) const;
     [[nodiscard]] std::vector<scene::EmitterProgress> progress(const scene::Scene& scene) const;  // by emitter
+    template <class Archive>
+    void archive(Archive& a) {
+        a(emitters_);
+    }
 
   private:
     struct Waiting {
@@ -49,6 +53,11 @@ class Emission {
         double flight = 0;       // s from the time when it was due to the end of that step
         unsigned attempts = 0;   // steps that it has waited
         bool attempted = false;  // in this step
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(sphere, number, flight, attempts, attempted);
+        }
     };
     struct State {
         std::uint64_t next = 0;  // number of the next sphere to become due
@@ -58,6 +67,11 @@ class Emission {
         std::uint64_t blocked = 0;
         std::optional<double> chokedFrom;  // s of work: since then, no place was free
         bool choked = false;               // for so long that it has ended
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(next, massDue, waiting, born, blocked, chokedFrom, choked);
+        }
     };
     static bool hasEnded(const scene::Emitter& emitter, const State& state);
     static void followChoke(const scene::Emitter& emitter, State& state, bool free, double time);

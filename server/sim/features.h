@@ -38,6 +38,10 @@ class Features {
 
     [[nodiscard]] bool hasAll(const Features& others) const { return (others.bits_ & ~bits_) == 0; }
     bool operator==(const Features&) const = default;
+    template <class Archive>
+    void archive(Archive& a) {
+        a(bits_);
+    }
 
   private:
     static std::uint64_t bitOf(Feature feature) { return std::uint64_t{1} << static_cast<unsigned>(feature); }

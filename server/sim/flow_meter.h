@@ -14,11 +14,20 @@ class FlowMeter {
     // Returns the flow in the last full second before `time`. No sphere was added after `time`.
     [[nodiscard]] double spheresPerSecond(double time) const;
     [[nodiscard]] double massPerSecond(double time) const;  // kg/s
+    template <class Archive>
+    void archive(Archive& a) {
+        a(total_, present_, last_, second_);
+    }
 
   private:
     struct Amount {
         std::uint64_t spheres = 0;
         double mass = 0;
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(spheres, mass);
+        }
     };
     // Returns the amount in the last full second before `time`.
     [[nodiscard]] Amount before(double time) const;

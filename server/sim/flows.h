@@ -17,6 +17,10 @@ struct SinkFlow {
     std::vector<std::uint64_t> byMaterial;  // spheres, by index into Scene::materials
 
     void add(double time, std::uint8_t material, double mass);
+    template <class Archive>
+    void archive(Archive& a) {
+        a(taken, byMaterial);
+    }
 };
 
 // The spheres that emitters have made and sinks have taken since the world began.
@@ -28,6 +32,10 @@ struct Flows {
     void follow(const scene::PartChange& change, const scene::Scene& scene, double time);
     // Adds the counts to `statistics`, whose time is set.
     void addTo(Statistics& statistics, const scene::Scene& scene) const;
+    template <class Archive>
+    void archive(Archive& a) {
+        a(emission, sinks);
+    }
 
     Emission emission;
     std::vector<SinkFlow> sinks;

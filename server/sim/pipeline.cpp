@@ -106,12 +106,18 @@ Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Ke
     return arrays;
 }
 
-Pipeline::Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {
+Pipeline::Pipeline(compute::Device& device, Plan plan, MadeKernels made)
+    : device_(device), plan_(std::move(plan)), kernelFiles_(std::move(made.files)), kernels_(std::move(made.kernels)) {
     if (plan_.features.has(Feature::Contacts)) rebuildWords_ = device_.createWordQueue();
     for (const auto* launches : {&plan_.substep, &plan_.newSubstep, &plan_.statistics, &plan_.stepEnd})
         for (const LaunchSpec& launch : *launches)
             if (std::ranges::find(kernelFiles_, launch.kernel) == kernelFiles_.end())
                 kernelFiles_.push_back(launch.kernel);
+}
+
+MadeKernels Pipeline::takeKernels() {
+    kernelFiles_.resize(kernels_.size());
+    return {.files = std::move(kernelFiles_), .kernels = std::move(kernels_)};
 }
 
 Result<bool> Pipeline::makeNext() {
@@ -327,6 +333,7 @@ void Pipeline::requestRebuild() {
 
 void Pipeline::expectRebuild() {
     listsPending_ = true;
+    listsRead_ = false;
     awaitSpeeds();
 }
 
@@ -339,9 +346,7 @@ std::vector<glm::vec4> Pipeline::takeImpacts() {
 }
 
 void Pipeline::runStatistics() {
-    if (listsPending_) {
-        rebuildLists();  // reading statistics does not change the simulation
-    }
+    buildListsToRead();
     run(statistics_, LaunchSet::Substep);
 }
 

@@ -32,6 +32,12 @@ State inIdOrder(const SlotState& slots, const Population& population);
 // without an array, for a buffer whose type differs from its array, and for an alias that the kernel does not declare.
 Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Kernel& kernel);
 
+// Kernels that were made, for pipelines with the same features.
+struct MadeKernels {
+    std::vector<std::string_view> files;
+    std::vector<std::unique_ptr<compute::Kernel>> kernels;
+};
+
 // A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
 class Pipeline {
   public:
@@ -40,8 +46,10 @@ class Pipeline {
     static constexpr std::uint32_t mostHandles = 1U << idBits;
     static constexpr std::uint32_t idMask = mostHandles - 1;
 
-    // Makes neither arrays nor kernels: makeNext() does.
-    Pipeline(compute::Device& device, Plan plan);
+    // Makes neither arrays nor kernels: makeNext() does. Those in `made` are not made again.
+    Pipeline(compute::Device& device, Plan plan, MadeKernels made = {});
+    // Returns the kernels. The pipeline cannot be used any more.
+    MadeKernels takeKernels();
 
     // Makes one more array or kernel. Returns false once all exist.
     Result<bool> makeNext();
@@ -86,6 +94,38 @@ class Pipeline {
     // Makes new lists of all spheres in the next substep.
     void requestRebuild();
 
+    // The data on the host that decides which launches follow.
+    struct LaunchState {
+        bool listsPending = false;
+        bool impactsPending = false;
+        bool launchesRebuild = true;
+        bool listsMayBeMissing = true;
+        bool moversMayExist = true;
+        float substepLength = 0;                    // s
+        unsigned unforeseen = 0;                    // substeps
+        std::uint32_t unlistedBirths = 0;           // spheres
+        std::vector<std::uint32_t> rebuildWords{};  // of the last substeps
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(listsPending, impactsPending, launchesRebuild, listsMayBeMissing, moversMayExist, substepLength,
+              unforeseen, unlistedBirths, rebuildWords);
+        }
+    };
+    // Between two steps. Waits for the device.
+    [[nodiscard]] LaunchState launchState();
+    void restore(const LaunchState& state);
+    // An array that holds more than scratch between two steps.
+    struct SavedArray {
+        Array array{};
+        std::vector<std::byte> bytes{};
+    };
+    // Waits for the device.
+    [[nodiscard]] std::vector<SavedArray> saveArrays();
+    // Uploads such arrays of a pipeline with an equal plan, and makes those that were made later. Input if they are
+    // arrays of another plan.
+    Result<void> restore(const std::vector<SavedArray>& arrays, const scene::Scene& scene);
+
     void substep(bool observed = false);
     // Runs the launches at the end of a step.
     void endStep() { run(stepEnd_, LaunchSet::Substep); }
@@ -98,8 +138,8 @@ class Pipeline {
     std::vector<std::uint32_t> contactCounts();
 
     // Computes the contacts, the overlap and the energy of each sphere in the present state, see figures.comp. Returns
-    // the array with them, by slot; it is valid until anything else is done. The first call makes what is needed for
-    // it.
+    // the array with them, by slot; it is valid until the simulation changes or goes on. The first call makes what is
+    // needed for it.
     Result<compute::Buffer*> figures();
     // Returns what the sphere touches, as the array Inspected has it. Waits for the device. Likewise.
     Result<std::vector<std::uint32_t>> inspect(std::uint32_t handle);
@@ -173,11 +213,13 @@ class Pipeline {
     void setSpheres(std::uint32_t count);
     void takeWallMemory(Pipeline& before, const NewKey& newKey);
     void rebuildLists();
+    void buildListsToRead();
     void expectRebuild();
     void placeFarSlot();
     // Launches the kernels of a rebuild in the next substeps: the speeds, or the length of the substep, have changed.
     void awaitSpeeds() { unforeseen_ = substepsAhead; }
     void chooseLaunches();
+    void startWords(std::span<const std::uint32_t> words);
     void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
     [[nodiscard]] bool hasListsAs(const Pipeline& before) const;
@@ -200,9 +242,10 @@ class Pipeline {
 
     compute::Device& device_;
     Plan plan_;
-    std::vector<std::string_view> kernelFiles_;  // launched by the plan
+    std::vector<std::string_view> kernelFiles_;  // the files of kernels_ first, in its order
     std::size_t arraysMade_ = 0;                 // of plan_.arrays
     bool listsPending_ = false;
+    bool listsRead_ = false;  // while they are pending: lists of the present state were built to read it
     bool impactsPending_ = false;
     std::array<std::unique_ptr<compute::Buffer>, arrayCount> owned_;
     // For an array that the plan lacks: absent_, which no kernel accesses.

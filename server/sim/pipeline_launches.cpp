@@ -17,7 +17,60 @@ void Pipeline::rebuildLists() {
     listsPending_ = false;
 }
 
+Pipeline::LaunchState Pipeline::launchState() {
+    LaunchState state{.listsPending = listsPending_,
+                      .impactsPending = impactsPending_,
+                      .launchesRebuild = launchesRebuild_,
+                      .listsMayBeMissing = listsMayBeMissing_,
+                      .moversMayExist = moversMayExist_,
+                      .substepLength = substepLength_,
+                      .unforeseen = unforeseen_,
+                      .unlistedBirths = unlistedBirths_};
+    while (rebuildWords_ && rebuildWords_->underWay() > 0) state.rebuildWords.push_back(rebuildWords_->take());
+    startWords(state.rebuildWords);
+    return state;
+}
+
+void Pipeline::restore(const LaunchState& state) {
+    listsPending_ = state.listsPending;
+    listsRead_ = false;
+    impactsPending_ = state.impactsPending;
+    launchesRebuild_ = state.launchesRebuild;
+    listsMayBeMissing_ = state.listsMayBeMissing;
+    moversMayExist_ = state.moversMayExist;
+    substepLength_ = state.substepLength;
+    unforeseen_ = state.unforeseen;
+    unlistedBirths_ = state.unlistedBirths;
+    while (rebuildWords_ && rebuildWords_->underWay() > 0) static_cast<void>(rebuildWords_->take());
+    startWords(state.rebuildWords);
+}
+
+// Lets rebuildWords_ return these words.
+void Pipeline::startWords(std::span<const std::uint32_t> words) {
+    if (!rebuildWords_ || words.empty()) return;
+    // The words pass through a buffer whose content does not matter.
+    words = words.first(std::min<std::size_t>(words.size(), compute::WordQueue::most));
+    device_.upload(*absent_, 0, std::as_bytes(words));
+    for (std::size_t k = 0; k < words.size(); ++k) rebuildWords_->start(*absent_, k * sizeof(std::uint32_t));
+}
+
+// Reading must not change the simulation. A substep builds lists after the spheres have got new velocities, and in
+// `fast` and `accurate` new places. Lists that were built before would have another drift, or other pairs, so they are
+// built again. Further readings of the state use the first lists: to build them overwrites the figures that frames
+// share.
+void Pipeline::buildListsToRead() {
+    if (!listsPending_ || listsRead_ || !plan_.features.has(Feature::Contacts)) return;
+    const std::uint32_t due = read<std::uint32_t>(Array::Counters, 1).front();
+    rebuildLists();
+    if ((due & REBUILD_ALL) == 0) return;
+    write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&due, 1), COUNTER_REBUILD);
+    listsPending_ = listsRead_ = true;
+}
+
 void Pipeline::substep(bool observed) {
+    // Lists of new spheres alone are built before, whether something has read them or not.
+    if (listsPending_ && unlistedBirths_ > 0 && (read<std::uint32_t>(Array::Counters, 1).front() & REBUILD_ALL) == 0)
+        rebuildLists();
     if (pulling_) run(pulls_, LaunchSet::Substep);
     chooseLaunches();
     run(substep_, observed ? LaunchSet::ObservedSubstep : LaunchSet::Substep);

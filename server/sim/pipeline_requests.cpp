@@ -27,7 +27,7 @@ Result<compute::Buffer*> Pipeline::figures() {
     for (const Array array : {touchingArray, deepestArray, figuresArray})
         if (auto made = makeMissing(array, plan_.room); !made) return tl::unexpected(made.error());
     if (auto ready = bindLate(plan_.figures, figures_); !ready) return tl::unexpected(ready.error());
-    if (listsPending_ && plan_.features.has(Feature::Contacts)) rebuildLists();
+    buildListsToRead();
     run(figures_, LaunchSet::Substep);
     return &buffer(figuresArray);
 }
@@ -35,7 +35,7 @@ Result<compute::Buffer*> Pipeline::figures() {
 Result<std::vector<std::uint32_t>> Pipeline::inspect(std::uint32_t handle) {
     if (auto ready = bindLate(plan_.inspection, inspection_); !ready) return tl::unexpected(ready.error());
     // A sphere finds the obstacles near it in the lists.
-    if (listsPending_ && plan_.features.has(Feature::Contacts)) rebuildLists();
+    buildListsToRead();
     const std::uint32_t none = 0;
     write<std::uint32_t>(Array::Inspected, std::span(&none, 1));
     plan_.inspection.front().phase = slotOf(handle);

@@ -317,6 +317,19 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     return planWith(scene, features, spheres, roomFor(spheres), radii, pairCapacity, std::nullopt);
 }
 
+PlanNumbers numbersOf(const Plan& plan) {
+    return {.features = plan.features,
+            .spheres = plan.spheres,
+            .room = plan.room,
+            .pairCapacity = plan.pairCapacity,
+            .mostMovers = plan.mostMovers};
+}
+
+Plan planOf(const scene::Scene& scene, const RadiusStats& radii, const PlanNumbers& numbers) {
+    return planWith(scene, numbers.features, numbers.spheres, numbers.room, radii, numbers.pairCapacity,
+                    numbers.mostMovers);
+}
+
 Plan planAsOf(const Plan& other, const scene::Scene& scene, const Features& features, const RadiusStats& radii) {
     // Without sleep, none moves among sleepers.
     const std::uint32_t mostMovers = features.has(Feature::Sleep) ? other.mostMovers : 0;

@@ -115,6 +115,23 @@ SubstepCost costOf(const Plan& plan, bool rebuild);
 // Returns how many batches of pairs may follow one another in a substep. Pairs without a batch come on top.
 std::uint32_t mostBatches(const Plan& plan);
 
+// The numbers of a plan that do not follow from its scene.
+struct PlanNumbers {
+    Features features;
+    std::uint32_t spheres = 0;
+    std::uint32_t room = 0;
+    std::uint32_t pairCapacity = 0;
+    std::uint32_t mostMovers = 0;
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(features, spheres, room, pairCapacity, mostMovers);
+    }
+};
+PlanNumbers numbersOf(const Plan& plan);
+// Returns the plan with these numbers.
+Plan planOf(const scene::Scene& scene, const RadiusStats& radii, const PlanNumbers& numbers);
+
 // Returns a plan for a scene with the same spheres as another plan, whose arrays it can take over.
 Plan planAsOf(const Plan& other, const scene::Scene& scene, const Features& features, const RadiusStats& radii);
 

@@ -38,6 +38,28 @@ std::vector<std::uint32_t> Population::ranksByHandle() const {
     return ranks;
 }
 
+bool Population::isWhole() const {
+    if (nextId_ < firstId_ || born() < count_ || handles_ < count_) return false;
+    if (!hasTables_) return handles_ == count_ && born() == count_ && ids_.empty() && ofRank_.empty();
+    if (ids_.size() != count_ || ofRank_.size() != count_ || idsOf_.size() != handles_) return false;
+    std::vector<bool> used(handles_);
+    for (std::uint32_t rank = 0; rank < count_; ++rank) {
+        const bool ascends = rank == 0 || ids_[rank] > ids_[rank - 1];
+        const std::uint32_t handle = ofRank_[rank];
+        if (!ascends || ids_[rank] >= nextId_ || handle >= handles_ || used[handle]) return false;
+        if (idsOf_[handle] != ids_[rank]) return false;
+        used[handle] = true;
+    }
+    const auto takes = [&](std::uint32_t handle) {
+        const bool fits = handle < handles_ && !used[handle];
+        if (fits) used[handle] = true;
+        return fits;
+    };
+    for (auto left = free_; !left.empty(); left.pop())
+        if (!takes(left.top())) return false;
+    return std::ranges::all_of(resting_, takes, &Freed::handle);
+}
+
 void Population::makeTables() {
     if (hasTables_) return;
     hasTables_ = true;

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <queue>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace spherule::sim {
@@ -50,6 +52,17 @@ class Population {
     // Makes handles equal to ranks again: all arrays by handle are new. Ids stay.
     void renumber();
 
+    template <class Archive>
+    void archive(Archive& a) {
+        std::vector<std::uint32_t> free;
+        if constexpr (!Archive::loads)
+            for (auto left = free_; !left.empty(); left.pop()) free.push_back(left.top());
+        a(firstId_, nextId_, version_, count_, handles_, hasTables_, ids_, ofRank_, idsOf_, resting_, free);
+        if constexpr (Archive::loads) free_ = decltype(free_)(std::greater<>(), std::move(free));
+    }
+    // Returns true if its tables fit each other. Others come only from damaged archives.
+    [[nodiscard]] bool isWhole() const;
+
     static constexpr std::uint64_t restSteps = 2;
     static constexpr std::uint32_t noRank = 0xffffffff;
     // Memory of the tables for each sphere (bytes).
@@ -59,8 +72,13 @@ class Population {
     void makeTables();
 
     struct Freed {
-        std::uint64_t step;
-        std::uint32_t handle;
+        std::uint64_t step = 0;
+        std::uint32_t handle = 0;
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(step, handle);
+        }
     };
 
     std::uint64_t firstId_ = 0;

@@ -89,7 +89,7 @@ Result<void> Preparation::doStage(std::chrono::milliseconds maxWait) {
         case Stage::Allocating:
             return makeNext();
         case Stage::Uploading:
-            if (keepsGrid_ && continues_->plan().has(Array::SlotOf))
+            if (basis_.keepsGrid && continues_->plan().has(Array::SlotOf))
                 if (auto made = pipeline_->makeSlotOf(); !made) return made;
             if (change_) return meetPresent();
             upload();
@@ -127,20 +127,44 @@ Result<void> Preparation::makePlan() {
         stage_ = Stage::Done;
         return {};
     }
-    keepsGrid_ = continues_ != nullptr && (!change_ || continues_->keepsGrid(built_.scene));
-    radii_ = keepsGrid_ ? continues_->radii_ : radiusStatsOf(built_.scene);
-    Features features = featuresOf(built_.scene);
-    // Spheres that are gone may have had other radii.
-    if (keepsGrid_ && continues_->plan().features.has(Feature::Radii)) features.set(Feature::Radii);
-    const auto spheres = static_cast<std::uint32_t>(built_.scene.spheres.size());
-    Plan plan = keepsGrid_ ? planAsOf(continues_->plan(), built_.scene, features, radii_)
-                           : planFor(built_.scene, features, spheres, radii_);
+    auto plan = planNow();
+    if (!plan) return tl::unexpected(plan.error());
+    return startPipeline(std::move(*plan), {});
+}
+
+Preparation::Basis Preparation::basis() const {
+    Basis now;
+    now.keepsGrid = continues_ != nullptr && (!change_ || continues_->keepsGrid(built_.scene));
+    now.radii = now.keepsGrid ? continues_->radii_ : radiusStatsOf(built_.scene);
+    now.features = featuresOf(built_.scene);
+    if (now.keepsGrid) {
+        const Plan& present = continues_->plan();
+        // Spheres that are gone may have had other radii.
+        if (present.features.has(Feature::Radii)) now.features.set(Feature::Radii);
+        now.room = present.room;
+        now.pairCapacity = present.pairCapacity;
+    } else {
+        now.spheres = static_cast<std::uint32_t>(built_.scene.spheres.size());
+    }
+    return now;
+}
+
+// Returns the plan for the present state, and keeps its basis.
+Result<Plan> Preparation::planNow() {
+    basis_ = basis();
+    ++plans_;
+    Plan plan = basis_.keepsGrid ? planAsOf(continues_->plan(), built_.scene, basis_.features, basis_.radii)
+                                 : planFor(built_.scene, basis_.features, basis_.spheres, basis_.radii);
     if (plan.features.has(Feature::Contacts))
-        if (auto fits = checkPeriods(built_.scene.bounds, plan.grid); !fits) return fits;
+        if (auto fits = checkPeriods(built_.scene.bounds, plan.grid); !fits) return tl::unexpected(fits.error());
+    return plan;
+}
+
+Result<void> Preparation::startPipeline(Plan plan, MadeKernels kernels) {
     auto claim = claimFor(device_, plan);
     if (!claim) return tl::unexpected(claim.error());
     claim_ = std::move(*claim);
-    pipeline_ = std::make_unique<Pipeline>(device_, std::move(plan));
+    pipeline_ = std::make_unique<Pipeline>(device_, std::move(plan), std::move(kernels));
     stage_ = Stage::Allocating;
     return {};
 }
@@ -170,13 +194,14 @@ void Preparation::upload() {
     for (glm::vec4& velocity : built_.state.velocity) velocity.w = std::abs(velocity.w);
     pipeline_->upload(built_.state, materialsOf(built_.scene));
     writeConstants(*pipeline_, built_.scene);
-    pipeline_->setParameters(
-        parametersFor(built_.scene, pipeline_->plan(), radii_, built_.scene.step / built_.scene.quality.substeps));
+    pipeline_->setParameters(parametersFor(built_.scene, pipeline_->plan(), basis_.radii,
+                                           built_.scene.step / built_.scene.quality.substeps));
     maxOverlap_ = maxSafeOverlap(built_.scene);
     stage_ = std::isfinite(maxOverlap_) ? Stage::MeasuringOverlaps : Stage::Done;
 }
 
-// Carries out the change on the scene as it is now. If the plan does not suit it any more, another one is made.
+// Carries out the change on the scene as it is now. All that decides the next bits follows from the present state: the
+// same command gives the same bits if it is carried out here at once.
 Result<void> Preparation::meetPresent() {
     if (auto finite = continues_->checkFinite(); !finite) return finite;
     scene::Scene now = continues_->scene_;
@@ -188,20 +213,14 @@ Result<void> Preparation::meetPresent() {
     }
     made_ = *made;
     built_.scene = std::move(now);
-    const Plan& plan = pipeline_->plan();
-    bool suits = plan.features.hasAll(featuresOf(built_.scene)) && keepsGrid_ == continues_->keepsGrid(built_.scene);
-    if (suits) {
-        const auto fits = fitRooms();
-        if (!fits) return tl::unexpected(fits.error());
-        suits = *fits;
-    }
-    if (!suits) {
+    if (continues_->keepsKernels(built_.scene)) {
         pipeline_.reset();
         claim_ = {};
-        stage_ = Stage::Planning;
+        stage_ = Stage::Done;
         return {};
     }
-    if (!keepsGrid_) {
+    if (!(basis() == basis_)) return planAgain();
+    if (!basis_.keepsGrid) {
         auto state = continues_->liveState();
         if (!state) return tl::unexpected(state.error());
         built_.state = std::move(*state);
@@ -210,19 +229,21 @@ Result<void> Preparation::meetPresent() {
     return {};
 }
 
-// Makes room for the spheres and pairs that the simulation has by now. Returns false if the arrays of the two cannot be
-// the same.
-Result<bool> Preparation::fitRooms() {
-    const Plan& plan = pipeline_->plan();
-    const Plan& present = continues_->plan();
-    const std::uint32_t room = keepsGrid_ ? present.room : continues_->count();
-    if (plan.room < room)
-        if (auto grown = pipeline_->growSpheres(room, built_.scene); !grown) return tl::unexpected(grown.error());
-    if (!keepsGrid_) return true;
-    if (plan.room != room || !(plan.grid == present.grid)) return false;
-    if (plan.pairCapacity < present.pairCapacity)
-        if (auto grown = pipeline_->growPairs(present.pairCapacity); !grown) return tl::unexpected(grown.error());
-    return plan.pairCapacity == present.pairCapacity;
+// Makes another plan, because the spheres are others by now. The simulation stands still if only the arrays are made
+// again, or if it has stepped beside two plans.
+Result<void> Preparation::planAgain() {
+    constexpr unsigned mostBeside = 2;
+    auto plan = planNow();
+    if (!plan) return tl::unexpected(plan.error());
+    const bool sameKernels = plan->features == pipeline_->plan().features;
+    holds_ = sameKernels || plans_ > mostBeside;
+    MadeKernels kernels;
+    if (sameKernels) kernels = pipeline_->takeKernels();
+    // The device frees the arrays before others are made.
+    pipeline_.reset();
+    device_.finish();
+    claim_ = {};
+    return startPipeline(std::move(*plan), std::move(kernels));
 }
 
 // Measures the deepest overlap: spheres that begin deep in each other would fly apart.

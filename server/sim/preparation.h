@@ -68,8 +68,8 @@ class Preparation {
     // Does all remaining pieces.
     Result<void> finish();
 
-    // Returns true if the simulation may step until adopt() is called.
-    [[nodiscard]] bool letsStep() const { return change_.has_value(); }
+    // Returns true if the simulation may step before the next piece. Near the end of a preparation it may not any more.
+    [[nodiscard]] bool letsStep() const { return change_.has_value() && !holds_; }
     [[nodiscard]] Progress::Seen progress() const { return progress_.seen(); }
 
     // The result of moving spheres apart that overlapped deeply at the start.
@@ -91,15 +91,30 @@ class Preparation {
         Done
     };
 
+    // The plan follows from this and from the scene. For a change beside the world, it is of the present state.
+    struct Basis {
+        bool keepsGrid = false;  // the cells, the handles and the memory of contacts stay
+        Features features;
+        RadiusStats radii;
+        std::uint32_t spheres = 0;  // with new cells
+        std::uint32_t room = 0;     // without
+        std::uint32_t pairCapacity = 0;
+
+        bool operator==(const Basis&) const = default;
+    };
+
     Result<void> doStage(std::chrono::milliseconds maxWait);
     Result<void> awaitBuilt(std::chrono::milliseconds maxWait);
     Result<void> makePlan();
+    [[nodiscard]] Basis basis() const;
+    Result<Plan> planNow();
+    Result<void> startPipeline(Plan plan, MadeKernels kernels);
     Result<void> makeNext();
     void upload();
     Result<void> measureOverlaps();
     Result<void> resolveOverlaps();
     Result<void> meetPresent();
-    Result<bool> fitRooms();
+    Result<void> planAgain();
 
     compute::Device& device_;
     memory::Claim copies_;
@@ -109,16 +124,17 @@ class Preparation {
     std::future<Result<SceneAndState>> building_;
     Stage stage_ = Stage::Building;
     SceneAndState built_;
-    RadiusStats radii_;
-    std::unique_ptr<Pipeline> pipeline_;
+    Basis basis_;
+    std::unique_ptr<Pipeline> pipeline_;  // null: the simulation keeps its own
     Simulation* addsTo_ = nullptr;
     bool appends_ = false;  // the simulation takes the new spheres as they are
     Simulation* continues_ = nullptr;
     ObstacleEdit edit_;
     std::optional<ChangePart> change_;
     scene::PartChange made_;
-    bool keepsGrid_ = false;  // the cells, the handles and the memory of contacts stay
-    double maxOverlap_ = 0;   // largest overlap allowed, as a fraction of the smaller radius
+    unsigned plans_ = 0;     // that were made
+    bool holds_ = false;     // the simulation may not step any more
+    double maxOverlap_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
     std::unique_ptr<InitialOverlapResolver> resolver_;
     std::optional<ResolvedOverlaps> resolvedOverlaps_;
     std::jthread builder_;  // last member: joined before the members that it uses are destroyed

@@ -73,7 +73,7 @@ void Simulation::install(Preparation& preparation) {
     if (pipeline_) closeContactSums();
     ++partsVersion_;
     scene_ = std::move(preparation.built_.scene);
-    radii_ = preparation.radii_;
+    radii_ = preparation.basis_.radii;
     pipeline_ = std::move(preparation.pipeline_);
     claim_ = std::move(preparation.claim_);
     settleClaim(claim_, device_, plan());
@@ -118,7 +118,7 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     }
     if (preparation->change_) {
         const scene::PartChange made = preparation->made_;
-        takePart(std::move(preparation->built_.scene), made, preparation.get());
+        takePart(std::move(preparation->built_.scene), made, preparation->pipeline_ ? preparation.get() : nullptr);
         return {.step = steps_, .number = made.number};
     }
     if (preparation->continues_ != nullptr) {
@@ -129,7 +129,7 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     bool newHandles = false;
     if (resetScope_ == ResetScope::World) {
         steps_ = 0;
-        remainderBegin_ = substepsLeft_ = 0;
+        remainderBegin_ = substepsLeft_ = substepsDone_ = 0;
         pulls_.clear();
         population_ = Population(spheres);
         flows_ = Flows(preparation->built_.scene);
@@ -207,7 +207,9 @@ Result<bool> Simulation::advance() {
     placeObstacles(scene_.quality.model == scene::Model::Balanced ? times.begin : times.end);
     pipeline_->substep(stepObserved_);
     if (drives_->any()) drives_->advance(scene_, times, *pipeline_, loadUnits_);
+    ++substepsDone_;
     if (--substepsLeft_ > 0) return false;
+    substepsDone_ = 0;
     pipeline_->endStep();
     ++steps_;
     placeObstacles(time());
@@ -294,7 +296,7 @@ std::string Simulation::divergence() const {
 }
 
 void Simulation::rollback() {
-    remainderBegin_ = substepsLeft_ = 0;
+    remainderBegin_ = substepsLeft_ = substepsDone_ = 0;
     if (lastFiniteSpheres_) {
         const std::uint64_t next = population_.nextId();
         population_ = std::move(lastFiniteSpheres_->population);

@@ -19,6 +19,7 @@
 #include "sim/plan.h"
 #include "sim/population.h"
 #include "sim/preparation.h"
+#include "sim/saved_state.h"
 #include "sim/state.h"
 #include "sim/statistics.h"
 
@@ -31,6 +32,13 @@ class Simulation {
     // Makes a simulation from a preparation that is done.
     static std::unique_ptr<Simulation> from(std::unique_ptr<Preparation> preparation);
 
+    // Makes a simulation that goes on from a saved state with the same bits, on a device of the same kind. Input if it
+    // is no such state, or if it is of another version of the program.
+    static Result<std::unique_ptr<Simulation>> restore(compute::Device& device, const SavedState& saved);
+    // Returns the present state. Refused between two substeps of one step, and if there is no memory for it. Waits for
+    // the device.
+    Result<SavedState> save();
+
     // Does one substep. Returns true if it ends a step of scene().step seconds.
     Result<bool> advance();
     // Does the remaining substeps of the step.
@@ -38,10 +46,11 @@ class Simulation {
     // Returns true between two substeps of one step.
     [[nodiscard]] bool midStep() const { return substepsLeft_ > 0; }
     [[nodiscard]] double shareOfStep() const;  // share of the step under way that is done, 0 to 1
+    [[nodiscard]] std::uint32_t substepsDone() const { return substepsDone_; }  // of the step under way
 
     // The outcome of a command: it is done, or it needs `preparation`. Pass the preparation to adopt() once it is done.
-    // Until then the command has changed nothing. The simulation may go on if Preparation::letsStep(), and otherwise no
-    // other call may change it.
+    // Until then the command has changed nothing. The simulation may go on while Preparation::letsStep(), and otherwise
+    // no other call may change it.
     struct Outcome {
         Applied applied{};
         std::unique_ptr<Preparation> preparation{};  // null: the command is done
@@ -88,6 +97,12 @@ class Simulation {
         std::uint32_t rebuilds = 0;             // of the lists, since the last change of the scene
         std::uint32_t sunk = 0;                 // spheres in sinks
         double largestMotion = 0;               // largest motion in a substep of the step (radii); 0: below SAFE_MOTION
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(pairs, unlisted, sampled, cutShort, droppedWallContacts, nonFinite, firstNonFinite, rebuilds, sunk,
+              largestMotion);
+        }
     };
     [[nodiscard]] const Counters& counters() const { return counters_; }  // as of the end of the last step
 
@@ -112,6 +127,8 @@ class Simulation {
     // Ends the pull of the session, if it has one.
     void release(std::uint64_t session);
     [[nodiscard]] bool pulling() const { return !pulls_.empty(); }
+    // Returns the sessions that pull a sphere.
+    [[nodiscard]] std::vector<std::uint64_t> pullingSessions() const;
     [[nodiscard]] const Plan& plan() const { return pipeline_->plan(); }
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return population_.count(); }
@@ -163,6 +180,11 @@ class Simulation {
         std::uint64_t sphere = 0;  // id
         glm::dvec3 point{};        // m
         double stiffness = 0;      // N/m
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(session, sphere, point, stiffness);
+        }
     };
     Result<glm::dvec3> pull(const Pull& pull, std::uint32_t rank);
     [[nodiscard]] double rateOf(const PullSpring& spring, std::uint32_t rank) const;
@@ -196,6 +218,9 @@ class Simulation {
     void closeContactSums();
     void openContactSums();
     [[nodiscard]] bool hasContactSums() const { return plan().features.has(Feature::ContactSums); }
+
+    template <class Archive>
+    void archive(Archive& a);
 
     class CommandHandler;
     Result<Outcome> change(scene::Scene changed, bool disturbs);
@@ -241,6 +266,11 @@ class Simulation {
         Population population;
         std::vector<scene::Sphere> spheres;
         std::vector<scene::Group> groups;
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(population, spheres, groups);
+        }
     };
     std::optional<Spheres> lastFiniteSpheres_;
     std::uint64_t steps_ = 0;
@@ -249,6 +279,7 @@ class Simulation {
     double remainderBegin_ = 0;
     std::uint32_t remainderSubsteps_ = 0;
     std::uint32_t substepsLeft_ = 0;
+    std::uint32_t substepsDone_ = 0;
     bool stepObserved_ = false;
     ResetScope resetScope_ = ResetScope::Nothing;  // for the preparation under way
     std::uint32_t generation_ = 0;

@@ -138,7 +138,7 @@ void Simulation::takePart(scene::Scene changed, const scene::PartChange& change,
 // Goes on with other arrays and kernels. Returns true if the cells, and so the handles of the spheres, are new.
 bool Simulation::takePipeline(Preparation& preparation, const scene::Scene& changed) {
     addImpacts(impacts_, *pipeline_);
-    if (preparation.keepsGrid_) {
+    if (preparation.basis_.keepsGrid) {
         preparation.pipeline_->takeFrom(*pipeline_);
     } else {
         State state = std::move(preparation.built_.state);
@@ -148,11 +148,11 @@ bool Simulation::takePipeline(Preparation& preparation, const scene::Scene& chan
         counters_ = {};
         pairsExhausted_ = false;
     }
-    radii_ = preparation.radii_;
+    radii_ = preparation.basis_.radii;
     pipeline_ = std::move(preparation.pipeline_);
     claim_ = std::move(preparation.claim_);
     settleClaim(claim_, device_, plan());
-    return !preparation.keepsGrid_;
+    return !preparation.basis_.keepsGrid;
 }
 
 // Wakes the spheres that the forces accelerate otherwise than those `before` did.

@@ -75,6 +75,12 @@ void Simulation::release(std::uint64_t session) {
     if (std::erase_if(pulls_, [&](const PullSpring& spring) { return spring.session == session; }) > 0) keepPulls();
 }
 
+std::vector<std::uint64_t> Simulation::pullingSessions() const {
+    std::vector<std::uint64_t> sessions;
+    for (const PullSpring& spring : pulls_) sessions.push_back(spring.session);
+    return sessions;
+}
+
 // The square root of stiffness over mass (1/s). The mass may have fallen since the pull began.
 double Simulation::rateOf(const PullSpring& spring, std::uint32_t rank) const {
     return std::min(std::sqrt(spring.stiffness / massOf(scene_, scene_.spheres[rank])), mostRate);

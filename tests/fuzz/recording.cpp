@@ -4,16 +4,16 @@
 #include <google/protobuf/stubs/logging.h>
 #include <sys/mman.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <string>
+#include <string_view>
 
+#include "record_bytes.h"
 #include "recording/bytes.h"
 #include "recording/record.h"
 #include "recording/recording.h"
@@ -22,33 +22,27 @@ namespace {
 
 using namespace spherule;
 
-void overwrite(std::string& content, std::size_t at, const std::string& with) {
-    content.replace(at, with.size(), with);
-}
-
-// Walks the records by their lengths; stops at a record that extends beyond the end.
+// Corrects the head of the file, and the checksums of its records. The file stays one of version 1, or becomes one of
+// version 2. `index`: the trailer, too.
 void makeSound(std::string& content, bool index) {
     if (content.size() < recording::fileHeadBytes) return;
-    overwrite(content, 0, recording::fileHead());
+    const bool old = content[recording::fileMagic.size()] == 1;
+    const auto id = recording::numberAt<std::uint32_t>(content, recording::fileMagic.size() + 4);
+    const recording::FileHead head =
+        old ? recording::FileHead{.version = 1} : recording::FileHead{.version = 2, .id = id};
+    content.replace(0, recording::fileHeadBytes, head.bytes());
+    recording::setChecksums(content);
+    if (!index) return;
     std::size_t at = recording::fileHeadBytes;
-    while (content.size() - at >= recording::recordHeadBytes + recording::checksumBytes) {
-        const auto length = recording::numberAt<std::uint32_t>(content, at);
-        if (length > content.size() - at - recording::recordHeadBytes - recording::checksumBytes) break;
-        const std::size_t hashed = recording::recordHeadBytes + length;
-        std::string sum;
-        recording::append(sum, std::uint64_t{XXH3_64bits(content.data() + at, hashed)});
-        overwrite(content, at + hashed, sum);
-        const bool last =
-            recording::numberAt<std::uint32_t>(content, at + 4) == static_cast<std::uint32_t>(recording::Kind::Index);
-        if (index && last && content.size() - at >= hashed + recording::checksumBytes + recording::trailerBytes) {
-            std::string trailer;
-            recording::append(trailer, std::uint64_t{at});
-            trailer.append(recording::endMagic.begin(), recording::endMagic.end());
-            content.resize(at + hashed + recording::checksumBytes);
-            content += trailer;
+    while (const auto end = recording::endOfRecord(content, at)) {
+        const bool last = recording::kindOf(std::string_view(content).substr(at)) == recording::Kind::Index;
+        if (last && content.size() - *end >= recording::trailerBytes) {
+            content.resize(*end);
+            recording::append(content, std::uint64_t{at});
+            content.append(recording::endMagic.begin(), recording::endMagic.end());
             return;
         }
-        at += hashed + recording::checksumBytes;
+        at = *end;
     }
 }
 

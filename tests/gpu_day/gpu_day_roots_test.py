@@ -2,47 +2,27 @@
 """gpu_day_roots_test.py BUILD STUB BASE: a bundle of tests/gpu_day.sh with the programs of BUILD, in a bare Debian with
 Mesa and in one without, both without this repository. BASE is the tar file of the bare Debian, which is made if it is
 missing (tests/image/make_base.sh). Needs root. STUB is the EGL library of stub_driver.c."""
-import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import bundles
+from debian_root import DebianRoot, make_base, obstacle
 
 BASE = Path(sys.argv.pop())
 STUB = Path(sys.argv.pop())
 BUILD = sys.argv.pop()
-TESTS = Path(__file__).resolve().parent.parent
 VENDOR = '{"file_format_version": "1.0.0", "ICD": {"library_path": "libEGL_nvidia.so.0"}}'
 
 
-def obstacle():
-    return "" if os.geteuid() == 0 else "only root can change to another root"
-
-
-class Root:
-    """A bare Debian in a folder, with a bundle in /opt/bundle."""
-    def __init__(self, folder, bundle):
-        self.path = Path(folder)
-        subprocess.run(["tar", "-xf", BASE, "-C", self.path], check=True)
+class Root(DebianRoot):
+    """A bare Debian with a bundle in /opt/bundle."""
+    def __init__(self, bundle):
+        super().__init__(BASE)
         shutil.copytree(bundle, self.path / "opt/bundle")
-        for name in ("resolv.conf", "hosts"):
-            shutil.copy(f"/etc/{name}", self.path / "etc")
-        subprocess.run(["mount", "-t", "proc", "proc", self.path / "proc"], check=True)
-
-    def close(self):
-        subprocess.run(["umount", "--lazy", self.path / "proc"], check=True)
-        subprocess.run(["rm", "-rf", "--one-file-system", self.path], check=True)
-
-    def call(self, *command):
-        variables = {name: value for name, value in os.environ.items() if "proxy" in name.lower()}
-        return subprocess.run(["chroot", self.path, *command], capture_output=True, text=True, check=False,
-                              env=variables | {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root",
-                                               "DEBIAN_FRONTEND": "noninteractive"})
 
     def run_bundle(self, name, *options):
         """Returns the process and the folder of the results."""
@@ -54,9 +34,7 @@ class Root:
 class Roots(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        if not BASE.exists():
-            BASE.parent.mkdir(parents=True, exist_ok=True)
-            subprocess.run([TESTS / "image/make_base.sh", BASE], check=True)
+        make_base(BASE)
         cls.bundle = tempfile.TemporaryDirectory()
         bundles.make(cls.bundle.name, BUILD)
 
@@ -65,14 +43,11 @@ class Roots(unittest.TestCase):
         cls.bundle.cleanup()
 
     def setUp(self):
-        self.root = Root(tempfile.mkdtemp(prefix="gpu-root-"), self.bundle.name)
+        self.root = Root(self.bundle.name)
         self.addCleanup(self.root.close)
 
     def test_with_mesa_everything_passes_on_software(self):
-        for command in (("apt-get", "update"), ("apt-get", "install", "-y", "--no-install-recommends", "libegl1",
-                                                "libegl-mesa0", "libgl1-mesa-dri")):
-            done = self.root.call(*command)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.root.install("libegl1", "libegl-mesa0", "libgl1-mesa-dri")
         done, out = self.root.run_bundle("out", "--device", "software", "--quick")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr + bundles.contents(out))
         bundles.check_files(out)

@@ -22,10 +22,18 @@ double residentMegabytes() {
 }
 
 constexpr std::uint8_t binaryFrame = 0x82;
+constexpr std::uint8_t pingFrame = 0x89;
 constexpr std::uint8_t pongFrame = 0x8a;
 
 std::string helloBytes(std::uint32_t rate) {
     return helloOf(rate).SerializeAsString();
+}
+
+// Opens the stream at 60 frames per second and waits until the server counts the viewer.
+void becomeViewer(const RawSocket& socket, FakeApp& app) {
+    ASSERT_EQ(socket.openStream().substr(0, 12), "HTTP/1.1 101");
+    socket.sendFrame(binaryFrame, helloBytes(60));
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
 }
 
 TEST(SlowClients, ThatStopReadingAreDroppedWithoutDelayingOthers) {
@@ -60,13 +68,29 @@ TEST(SlowClients, ThatStopReadingAreDroppedWithoutDelayingOthers) {
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 
+// A ping is an answer that waits behind the unsent data. The cause stays that the client does not read.
+TEST(SlowClients, ThatSendPingsButReadNothingCountAsStalled) {
+    Options options = quickOptions();
+    options.progressTimeout = 1s;
+    FakeApp app(options);
+    const RawSocket slow(app.server().port(), 16 * 1024);
+    ASSERT_NO_FATAL_FAILURE(becomeViewer(slow, app));
+    app.publishEvery(25ms, 40'000);  // 240 kB each
+    const auto begin = std::chrono::steady_clock::now();
+    while (app.server().viewers() == 1 && std::chrono::steady_clock::now() - begin < patience) {
+        slow.sendFrame(pingFrame, "");
+        std::this_thread::sleep_for(100ms);
+    }
+    EXPECT_TRUE(eventually([&] { return app.server().viewers() == 0; }));
+    EXPECT_EQ(app.counters().closedBy(CloseCause::Stalled), 1U);
+    EXPECT_EQ(app.counters().closedBy(CloseCause::Left), 0U);
+}
+
 // Frames in the kernel's buffer get stale.
 TEST(SlowClients, ThatReadNothingHaveFewBytesInFlight) {
     FakeApp app;
     const RawSocket slow(app.server().port(), 16 * 1024);
-    ASSERT_EQ(slow.openStream().substr(0, 12), "HTTP/1.1 101");
-    slow.sendFrame(binaryFrame, helloBytes(60));
-    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    ASSERT_NO_FATAL_FAILURE(becomeViewer(slow, app));
     app.publishEvery(5ms, 20'000);  // 120 kB each
     ASSERT_TRUE(eventually([&] { return app.published() > 60; }));
     EXPECT_EQ(app.counters().framesSent, 0U) << "no frame fits into the kernel's buffer";
@@ -79,9 +103,7 @@ TEST(SlowClients, ThatReadSteadilyStayConnected) {
     options.idleTimeout = 1500ms;
     FakeApp app(options);
     const RawSocket slow(app.server().port(), 64 * 1024);
-    ASSERT_EQ(slow.openStream().substr(0, 12), "HTTP/1.1 101");
-    slow.sendFrame(binaryFrame, helloBytes(60));
-    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    ASSERT_NO_FATAL_FAILURE(becomeViewer(slow, app));
     constexpr std::uint32_t spheres = 700'000;
     constexpr std::size_t frameBytes = std::size_t{6} * spheres;
     app.publish(spheres);

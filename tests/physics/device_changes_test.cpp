@@ -70,6 +70,7 @@ unsigned changeOnTheWay(sim::Simulation& simulation, const sim::Command& command
     const sim::Features before = simulation.plan().features;
     unsigned substeps = 0;
     while (!valueOf(outcome.preparation->advance())) {
+        if (!outcome.preparation->letsStep()) continue;
         valueOf(simulation.advance());
         ++substeps;
     }

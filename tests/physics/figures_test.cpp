@@ -152,6 +152,16 @@ TEST_P(FiguresOf, SpheresAreComputedWithoutAnEffect) {
     EXPECT_EQ(sim::hashOf(watched->snapshot()), sim::hashOf(alone->snapshot()));
 }
 
+// Chains of frames that begin later share the figures of a state. Before the first step, reading builds the lists.
+TEST_P(FiguresOf, SpheresStayWhileOthersReadTheState) {
+    const auto simulation = simulate(bed(GetParam(), 5, false), device());
+    EXPECT_TRUE(simulation->pipeline().figures());
+    const auto before = simulation->pipeline().read<glm::vec4>(sim::figuresArray);
+    (void)simulation->statistics();
+    EXPECT_TRUE(sim::inspect(*simulation, 7, "sphere"));
+    EXPECT_EQ(simulation->pipeline().read<glm::vec4>(sim::figuresArray), before);
+}
+
 TEST_P(FiguresOf, AnInspectedSphereAreThoseOfItsState) {
     const auto simulation = settled(4, true);
     ASSERT_TRUE(simulation->apply(sim::Remove{.spheres = {0, 17, 200}}));

@@ -1,7 +1,9 @@
 // Changes of the scene at random, and while the world goes on.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -126,6 +128,46 @@ TEST_P(RandomChanges, AtRandomKeepTheWorldWhole) {
     }
 }
 
+// Statistics, figures, contacts of a sphere and saved states are read in one of two simulations, also between a command
+// and the next substep.
+TEST_P(RandomChanges, ReadingMakesNoDifference) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        Editor editor(seed);
+        scene::Random random(seed);
+        scene::Scene scene = fallingBox(GetParam());
+        if (GetParam() == Model::Accurate) scene.quality.overlap = 0.3;
+        const auto read = simulate(scene);
+        const auto unread = simulate(scene);
+        for (int k = 0; k < 60; ++k) {
+            const sim::Command command = [&]() -> sim::Command {
+                if (k % 4 == 1) return sim::Set{.model = static_cast<Model>(editor.below(3))};
+                if (k % 4 == 3) return sim::Remove{.spheres = {editor.below(80)}};
+                return editor.next();
+            }();
+            EXPECT_EQ(read->apply(command).has_value(), unread->apply(command).has_value());
+            for (unsigned steps = editor.below(4); steps > 0; --steps) {
+                switch (editor.below(4)) {
+                    case 0:
+                        EXPECT_EQ(read->statistics().nonFinite, 0U);
+                        break;
+                    case 1:
+                        EXPECT_TRUE(read->pipeline().figures());
+                        break;
+                    case 2:
+                        EXPECT_EQ(read->contactCounts().size(), read->count());
+                        break;
+                    default:
+                        EXPECT_TRUE(read->save());
+                        break;
+                }
+                ASSERT_TRUE(read->step());
+                ASSERT_TRUE(unread->step());
+                ASSERT_EQ(sim::hashOf(read->snapshot()), sim::hashOf(unread->snapshot())) << seed << ", " << k;
+            }
+        }
+    }
+}
+
 // The state to which the world returns has the groups and emitters of the changed scene.
 TEST_P(RandomChanges, TheWorldGoesBackWithItsChanges) {
     auto simulation = simulate(emptyBox(std::string(jet) + "," + jet, GetParam()));
@@ -165,6 +207,71 @@ TEST_P(RandomChanges, AnEndedPreparationChangesNothing) {
     EXPECT_EQ(hashAfter(*simulation, 0.2), hashAfter(*untouched, 0.2));
 }
 
+struct Beside {
+    bool holds = false;     // the change was not refused
+    unsigned substeps = 0;  // that the world has done before
+};
+
+// Carries out a command while the world does `substeps()` after each piece of its preparation.
+Beside changeBeside(sim::Simulation& simulation, const sim::Command& command,
+                    const std::function<unsigned()>& substeps) {
+    Beside beside;
+    auto outcome = simulation.begin(command);
+    if (!outcome) return beside;
+    while (outcome->preparation) {
+        const auto done = outcome->preparation->advance();
+        if (!done) return beside;
+        if (*done) simulation.adopt(std::move(outcome->preparation));
+        if (*done || !outcome->preparation->letsStep()) continue;
+        for (unsigned left = substeps(); left > 0; --left, ++beside.substeps) EXPECT_TRUE(simulation.advance());
+    }
+    beside.holds = true;
+    return beside;
+}
+
+// All that decides the bits of a plan.
+auto decidingPartsOf(const sim::Plan& plan) {
+    return std::tuple(plan.features, plan.spheres, plan.room, plan.pairCapacity, plan.mostMovers, plan.maxWallHistory,
+                      plan.grid);
+}
+
+// A replay of a command log makes a change at once, where it began to hold. Spheres are born and removed between the
+// begin of the change and that place, so that the cells and the room for spheres are others.
+TEST_P(RandomChanges, BesideTheWorldAreTheSameAsAtOnce) {
+    unsigned beside = 0;
+    for (const std::uint64_t seed : {1U, 2U}) {
+        Editor editor(seed);
+        const scene::Scene scene = sceneOf(fmt::format(
+            R"({{"bounds": {{"min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 1]}}, "quality": {{"model": "{}"}},
+                 "materials": [{{"name": "m0", "friction": 0.3}}], "emitters": [{}],
+                 "sinks": [{{"region": {{"min": [-0.5, -0.5, 0], "max": [0.5, -0.1, 0.1]}}}}]}})",
+            GetParam() == Model::Fast       ? "FAST"
+            : GetParam() == Model::Balanced ? "BALANCED"
+                                            : "ACCURATE",
+            jet));
+        const auto run = simulate(scene);
+        const auto replay = simulate(scene);
+        for (int k = 0; k < 25; ++k) {
+            const sim::Command command = editor.next();
+            const std::uint32_t before = run->count();
+            const Beside change =
+                changeBeside(*run, command, [&] { return editor.below(4) == 0 ? run->substeps() : 1; });
+            for (unsigned left = change.substeps; left > 0; --left) ASSERT_TRUE(replay->advance());
+            if (!change.holds) continue;
+            beside += run->count() > before ? 1 : 0;
+            apply(*replay, command);
+            const std::string where = fmt::format("seed {}, change {}", seed, k);
+            EXPECT_TRUE(decidingPartsOf(run->plan()) == decidingPartsOf(replay->plan())) << where;
+            for (int steps = 0; steps < 2; ++steps) {
+                ASSERT_TRUE(run->step());
+                ASSERT_TRUE(replay->step());
+            }
+            ASSERT_EQ(sim::hashOf(run->snapshot()), sim::hashOf(replay->snapshot())) << where;
+        }
+    }
+    EXPECT_GT(beside, 5U) << "spheres were born beside";
+}
+
 // A preparation lets the world go on, and takes over what has changed meanwhile.
 TEST_P(RandomChanges, TheWorldGoesOnWhileKernelsAreMade) {
     auto simulation = simulate(emptyBox(jet, GetParam()));
@@ -177,7 +284,7 @@ TEST_P(RandomChanges, TheWorldGoesOnWhileKernelsAreMade) {
         const auto done = outcome->preparation->advance();
         ASSERT_TRUE(done) << done.error().text();
         if (*done) break;
-        run(*simulation, 0.05);
+        if (outcome->preparation->letsStep()) run(*simulation, 0.05);
     }
     const std::uint64_t hash = sim::hashOf(simulation->snapshot());
     const std::uint32_t count = simulation->count();

@@ -156,12 +156,13 @@ class Record(RecordingTestCase):
                                           r"written stays as it is\.")
         self.assertIn("is cut off", self.length_of(self.recording)[2])
 
-    def test_a_recording_of_nothing_is_a_failure(self):
+    def test_a_stop_before_the_first_frame_is_no_failure(self):
         scene = self.write("empty.json", '{"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}')
         with self.serve(scene, "--record", self.recording) as server:
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_recording_active", ""] == 1))
-            self.assertEqual(server.end(), 4)
-            self.assertIn("nothing was recorded: no frame has come", server.said)
+            self.assertEqual(server.end(), 0, server.said)
+            self.assertRegex(server.said, rf"warning {self.recording}: nothing was recorded: no frame has come")
+        self.assertFalse(os.path.exists(self.recording))
 
     def test_where_it_cannot_be_begun_nothing_is_served(self):
         self.write("a.sph", "precious")

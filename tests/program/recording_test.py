@@ -134,8 +134,8 @@ class Formats(RecordingTestCase):
 
 
 class Record(RecordingTestCase):
-    def bytes_of(self, *more, device="cpu"):
-        self.run_done("box-4k", "--for", "0.5s", "--force", *more, device=device)
+    def bytes_of(self, *more, duration="0.5s", device="cpu"):
+        self.run_done("box-4k", "--for", duration, "--force", *more, device=device)
         with open(self.recording, "rb") as file:
             return file.read()
 
@@ -144,6 +144,33 @@ class Record(RecordingTestCase):
         self.assertEqual(self.bytes_of(), once)
         self.assertEqual(self.bytes_of(device="cpu:1"), once)
         self.assertNotEqual(self.bytes_of("--seed", "7"), once)
+
+    def test_runs_that_differ_have_other_ids(self):
+        script = self.write("push.txt", "0.3s set gravity 0 0 -1.6\n")
+        runs = ((), ("--seed", "7"), ("--script", script), ("--record-tier", "eco"), ("--record-rate", "20"),
+                ("--quality", "fast"))
+        ids = {self.bytes_of(*more)[12:16] for more in runs} | {self.bytes_of(duration="0.4s")[12:16]}
+        self.assertEqual(len(ids), len(runs) + 1)
+        self.assertEqual(self.bytes_of("--contact-sums"), self.bytes_of())
+
+    def test_the_folder_of_a_scene_changes_nothing(self):
+        corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+        scene = {"bounds": {"min": [-2, -2, -2], "max": [2, 2, 2]}, "obstacles": [{"mesh": {"file": "wedge.obj"}}],
+                 "groups": [{"radius": {"constant": 0.1}, "list": {"spheres": [{"position": [0.2, 0.2, 1.5]}]}}]}
+        recorded = []
+        for folder in "here", "there":
+            os.mkdir(self.at(folder))
+            with open(self.at(f"{folder}/wedge.obj"), "w", encoding="utf-8") as file:
+                file.writelines(["# " + 97 * " " + "\n"] * 11_000)  # a file of more than 1 MiB stays a file
+                file.writelines(f"v {x} {y} {z}\n" for x, y, z in corners)
+                file.writelines(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces)
+            with open(self.at(f"{folder}/scene.json"), "w", encoding="utf-8") as file:
+                json.dump(scene, file)
+            self.run_done(self.at(f"{folder}/scene.json"), "--for", "0.5s", "--force")
+            with open(self.recording, "rb") as file:
+                recorded.append(file.read())
+        self.assertEqual(*recorded)
 
     def test_a_group_that_changes_in_the_run_has_its_new_name(self):
         script = self.write("rename.txt", '0.1s change_group 0 {"name": "renamed", "colour": "#ff0000"}\n')

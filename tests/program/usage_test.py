@@ -24,7 +24,7 @@ class Usage(unittest.TestCase):
         return said.removeprefix("spherule: ")
 
     def test_what_is_unknown_is_named_with_what_is_like_it(self):
-        self.assertEqual(self.refusal("rum"), '"rum" is no command (did you mean run?); there are serve, run, play, export, '
+        self.assertEqual(self.refusal("rum"), '"rum" is no command (did you mean run?); there are serve, run, play, replay, compare, export, '
                                               'plan, scene, ctl, health, probe, measure; see `spherule --help`')
         self.assertNotIn("did you mean", self.refusal("simulate", "bounce"))
         self.assertEqual(self.refusal("run", "bounce", "--quailty", "fast"),
@@ -76,7 +76,7 @@ class Usage(unittest.TestCase):
                 (*run, "--for", "1s", "--quality", "best"):
                     "--quality: best not in {fast,balanced,accurate}; see `spherule run --help`",
                 (*run, "--for", "1s", "--force"):
-                    "--force: has nothing to replace; give --record, --dump or --surface-forces; see `spherule run --help`",
+                    "--force: has nothing to replace; give --record, --dump, --surface-forces or --log; see `spherule run --help`",
                 (*run, "--for", "1s", "--dump", "-"):
                     "--dump: cannot be standard output, where the report goes; give it a file; see `spherule run --help`",
                 (*run, "--for", "1s", "--record", "-"):

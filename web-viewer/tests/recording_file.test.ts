@@ -1,105 +1,12 @@
-import { create, toBinary } from "@bufbuild/protobuf";
+import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { readRecording } from "../src/archive/recording_reader";
 import { RecordingWriter } from "../src/archive/recording_writer";
-import { BufferPool } from "../src/connection/buffer_pool";
-import { Frames } from "../src/connection/frames";
-import { History } from "../src/connection/history";
 import type { Segment } from "../src/connection/history";
-import { LookBack } from "../src/connection/look_back";
-import type { Received } from "../src/connection/messages";
-import { Player } from "../src/connection/player";
-import { ServerMessageSchema, SettingsSchema } from "../src/gen/spherule/v1/control_pb";
-import { PlacesSchema, PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
-import type { SceneFacts } from "../src/gen/spherule/v1/facts_pb";
-import { coordinate } from "../src/model/units";
-import { frameOf, keyframe, moved, orderOf } from "./support/chain";
-
-/** A past with four places. The second is free before the 50th frame, and the third from the 100th on. */
-function past(frames = 300): readonly Segment[] {
-  const lookBack = new LookBack();
-  const decoder = new Frames(new BufferPool());
-  const radii = new Uint8Array(Float32Array.of(0.1, 0.2, 0.3, 0.4).buffer);
-  const places = [
-    create(PlacesSchema, { first: 0, count: 1, id: 0n, group: 0 }),
-    create(PlacesSchema, { first: 2, count: 2, id: 2n, group: 1 }),
-  ];
-  const groups = [{ name: "one", material: 3 }, { name: "two" }];
-  const bounds = { boundsMin: [-99, -99, -99], boundsMax: [99, 99, 99] };
-  const facts = create(SceneFactsSchema, { epoch: 3, name: "test", count: 4, radii, places, groups, ...bounds });
-  decoder.setScene(3, 4);
-  decoder.setOrder(orderOf([3, 1, 0, 2]));
-  lookBack.sceneReceived(facts);
-  lookBack.settings = create(SettingsSchema, { gravity: [0, 0, -1] });
-  for (let number = 1; number <= frames; number++) {
-    if (number === 50) {
-      const radius = new Uint8Array(Float32Array.of(0.25).buffer);
-      const added = [create(PlacesSchema, { first: 1, count: 1, id: 7n, group: 0, radii: radius })];
-      lookBack.populationReceived(create(PopulationSchema, { epoch: 3, number: 1, added }));
-    }
-    if (number === 100) {
-      const removed = [create(PlacesSchema, { first: 2, count: 1 })];
-      lookBack.populationReceived(create(PopulationSchema, { epoch: 3, number: 2, removed }));
-    }
-    const population = number < 50 ? 0 : number < 100 ? 1 : 2;
-    const first = (): Uint8Array =>
-      keyframe(1, [
-        [30, 0, 0],
-        [10, 0, 0],
-        [0, 0, 0],
-        [20, 0, 0],
-      ]);
-    const spb = number === 1 ? first() : moved(number, 4, [0, 1, 0]);
-    const times = { step: BigInt(number), simTime: number / 10, stampUs: BigInt(number * 100_000) };
-    const poses = [{ obstacle: 1, translation: [number, 0, 0], rotation: [0, 0, 0.6, 0.8] }];
-    const frame = frameOf(spb, { count: 4, population, quantum: 0.5, poses, ...times });
-    const message = create(ServerMessageSchema, { kind: { case: "frame", value: frame } });
-    const decoded = decoder.decode(frame);
-    assert.ok(decoded.kind === "state");
-    lookBack.frameDecoded(frame, toBinary(ServerMessageSchema, message), decoded.keyframe, decoder);
-  }
-  return lookBack.history.all;
-}
-
-function fileOf(segments: readonly Segment[]): Uint8Array {
-  const writer = new RecordingWriter(undefined);
-  for (const segment of segments) writer.add(segment);
-  writer.finish();
-  return new Uint8Array(Buffer.concat(writer.parts));
-}
-
-/** What a player shows of the file. */
-function played(bytes: Uint8Array) {
-  const content = readRecording(bytes);
-  const history = new History();
-  for (const { entries, begin, ...start } of content.segments) {
-    history.open(start, begin);
-    for (const entry of entries) history.add(entry);
-  }
-  const frames: Received[] = [];
-  const scenes: SceneFacts[] = [];
-  const faults: string[] = [];
-  const player = new Player(history, true, new BufferPool(), {
-    scene: (facts) => void scenes.push(facts),
-    population: () => assert.fail("recordings have no changes of the population"),
-    frame: (frame) => void frames.push(frame),
-    damaged: (reason) => void faults.push(reason),
-    ended: () => undefined,
-  });
-  player.paused = true;
-  return { content, history, player, frames, scenes, faults };
-}
-
-/** A coordinate of each sphere (m). */
-function coordinates(frame: Received | undefined, axis: 0 | 1 | 2): number[] {
-  return Array.from({ length: frame?.count ?? 0 }, (_, place) =>
-    coordinate((frame as Received).columns.position, place, axis),
-  );
-}
-
-const xs = (frame: Received | undefined): number[] => coordinates(frame, 0);
-const firstY = (frame: Received | undefined): number | undefined => coordinates(frame, 1)[0];
+import { PlacesSchema } from "../src/gen/spherule/v1/facts_pb";
+import { fileOf, firstY, past, played, withLogs, xs } from "./support/recordings";
 
 test("a written recording has the poses of obstacles, whatever frames are left out on the way", () => {
   const { player, frames } = played(fileOf(past()));
@@ -166,12 +73,49 @@ test("time continues where the simulation's time is set back", () => {
   assert.equal(frames.at(-1)?.step, 20);
 });
 
+test("recordings of the program are read in each version of the format", () => {
+  const shown = [1, 2].map((version) => {
+    const file = new Uint8Array(readFileSync(`../tests/golden/recording/version-${version}.sph`));
+    assert.equal(file[8], version);
+    const { content, history, player, frames, faults } = played(file);
+    assert.deepEqual([content.flaw, content.damage, faults], ["", [], []]);
+    assert.deepEqual([history.begin, history.end, history.frames], [0, 2.5, 11]);
+    for (let time = 0; time < 2.6; time += 0.25) player.seek(time + 1e-6);
+    assert.equal(frames.length, 11);
+    return frames.map((frame) => [frame.simTime, xs(frame)]);
+  });
+  assert.deepEqual(shown[0], shown[1]);
+});
+
+test("a recording with a log plays the same frames as one without", () => {
+  const file = fileOf(past());
+  const shown = [file, withLogs(file)].map((recording) => {
+    const { content, history, player, frames, scenes, faults } = played(recording);
+    assert.deepEqual([content.flaw, content.damage, content.end], ["", [], 30]);
+    for (const time of [12, 0, ...Array.from({ length: 300 }, (_, k) => (k + 1) / 10 + 1e-6)]) player.seek(time);
+    assert.deepEqual(faults, []);
+    const states = frames.map((frame) => [frame.step, frame.simTime, xs(frame), firstY(frame), frame.poses]);
+    return { times: [history.begin, history.end, history.frames], states, scenes };
+  });
+  assert.ok((shown[0]?.states.length ?? 0) >= 300);
+  assert.deepEqual(shown[1], shown[0]);
+});
+
+test("version 1 of the format has no logs", () => {
+  const [first, second] = [1, 2].map((version) => readFileSync(`../tests/golden/recording/version-${version}.sph`));
+  const { content } = played(withLogs(new Uint8Array(second as Buffer)));
+  assert.deepEqual([content.flaw, content.damage, content.end], ["", [], 2.5]);
+  const old = withLogs(new Uint8Array(first as Buffer));
+  assert.match(played(old).content.damage[0] ?? "", /^the record at byte 16 is damaged: its head is invalid$/);
+  assert.throws(() => readRecording(old.subarray(0, -1)), /no frames: the record at byte 16 is damaged/);
+});
+
 test("a foreign file is refused with the reason", () => {
   const file = fileOf(past(3));
   const changed = (at: number, byte: number): Uint8Array => file.map((value, k) => (k === at ? byte : value));
   assert.throws(() => readRecording(new TextEncoder().encode("PK, no recording")), /is no recording/);
   assert.throws(() => readRecording(new Uint8Array(0)), /is no recording/);
-  assert.throws(() => readRecording(changed(8, 2)), /version 2/);
+  assert.throws(() => readRecording(changed(8, 3)), /version 3 of the format; this page reads versions 1 and 2/);
   assert.throws(() => readRecording(file.subarray(0, 40)), /no frames: the record at byte 16 is cut off/);
 });
 

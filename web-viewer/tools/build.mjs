@@ -6,6 +6,8 @@ import * as esbuild from "esbuild";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { gzipSync } from "node:zlib";
+import { fromBinary, toBinary } from "@bufbuild/protobuf";
+import { FileDescriptorProtoSchema } from "@bufbuild/protobuf/wkt";
 import { generate } from "./generate.mjs";
 import { options, root } from "./options.mjs";
 
@@ -35,12 +37,26 @@ const shortShaders = {
   },
 };
 
+/** Removes the names of enumerators. Only JSON has them, which these bundles do not read or write. */
+function withoutEnumerators(binary) {
+  const file = fromBinary(FileDescriptorProtoSchema, binary);
+  const clear = ({ enumType, nestedType = [] }) => {
+    for (const value of enumType.flatMap((one) => one.value)) value.name = "";
+    nestedType.forEach(clear);
+  };
+  clear({ ...file, nestedType: file.messageType });
+  return toBinary(FileDescriptorProtoSchema, file);
+}
+
 /** Writes the descriptors of generated code as text: gzip finds their repeated names, which base64 hides. */
 const plainDescriptors = {
   name: "plain descriptors",
   setup(build) {
     build.onLoad({ filter: /_pb\.ts$/ }, ({ path: file }) => {
-      const plain = (_, base64) => `fileDesc(/*@__PURE__*/ btoa(${JSON.stringify(atob(base64))})`;
+      const plain = (_, base64) => {
+        const binary = withoutEnumerators(Buffer.from(base64, "base64"));
+        return `fileDesc(/*@__PURE__*/ btoa(${JSON.stringify(Buffer.from(binary).toString("latin1"))})`;
+      };
       return { contents: readFileSync(file, "utf8").replace(/fileDesc\("([^"]+)"/, plain), loader: "ts" };
     });
   },
@@ -89,6 +105,8 @@ function forbid({ entryPoint, inputs }, library, why) {
 }
 
 forbid(viewer, "@bufbuild/", "only the worker may encode and decode messages");
+for (const bundle of Object.values(metafile.outputs).filter(({ entryPoint }) => entryPoint?.endsWith("/worker.ts")))
+  for (const module of ["from-json", "to-json"]) forbid(bundle, module, "its enumerators have no names");
 // Effects follow only the signals of their own copy of the library.
 for (const part of Object.values(lazy.metafile.outputs)) forbid(part, "@preact/", "only viewer.js has signals");
 

@@ -62,6 +62,7 @@ ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& 
     v1::Obstacle kept;
     v1::HeightField& heights = *kept.mutable_height_field();
     heights = message.height_field();
+    if (input.mesh) return meshShape(input.mesh, kept);
     const std::string here = at(field, "heightField");
     const Box box = check.box(heights.min(), heights.max(), here);
     const glm::dvec3 side = box.max - box.min;

@@ -100,6 +100,7 @@ ShapePointer readMesh(Check& check, const v1::Mesh& message, const std::string& 
     v1::Obstacle kept;
     v1::Mesh& mesh = *kept.mutable_mesh();
     mesh = message;
+    if (input.mesh) return meshShape(input.mesh, kept);
     double scale = 1;
     if (mesh.scale() != 0) scale = check.upTo(mesh.scale(), 1e9, at(here, "scale"), " m per unit");
     check.part([&] {

@@ -46,9 +46,7 @@ ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& 
     const double length = glm::length(normal);
     if (length < shortest)
         check.refuse(at(field, "plane.normal"), fmt::format("is {}, must not be zero", shown(normal)));
-    // A normal of unit length stays as it is, so that a saved scene is the same when it is saved again.
-    const bool unit = std::abs(length - 1) < 1e-15;
-    return planeShape(point, unit ? normal : normal / std::max(length, shortest));
+    return planeShape(point, length < shortest ? normal : unitVector(normal));
 }
 
 }  // namespace

@@ -18,8 +18,16 @@ class Shell final : public Shape {
   public:
     enum class Form : std::uint8_t { Disc, Cylinder, Cone };
 
-    // `along`: the axis. A disc lies in its middle, and `low` is the radius of its hole.
+    // `along`: the axis.
     Shell(Form form, const Ends& along, double low, double high) : form_(form), along_(along), low_(low), high_(high) {}
+    // A disc. `normal`: of unit length.
+    Shell(const glm::dvec3& centre, const glm::dvec3& normal, double hole, double radius)
+        : form_(Form::Disc),
+          along_{centre - 0.5 * normal, centre + 0.5 * normal},
+          low_(hole),
+          high_(radius),
+          centre_(centre),
+          normal_(normal) {}
 
     [[nodiscard]] ShapeKind kind() const override { return ShapeKind::Shells; }
     // A sphere in it may touch it all around.
@@ -48,8 +56,8 @@ class Shell final : public Shape {
     void write(v1::Obstacle& message) const override {
         if (form_ == Form::Disc) {
             v1::DiscShape& disc = *message.mutable_disc();
-            setVector(*disc.mutable_centre(), along_.centre());
-            setVector(*disc.mutable_normal(), along_.to - along_.from);
+            setVector(*disc.mutable_centre(), centre_);
+            setVector(*disc.mutable_normal(), normal_);
             disc.set_radius(high_);
             disc.set_hole(low_);
         } else if (form_ == Form::Cylinder) {
@@ -75,6 +83,8 @@ class Shell final : public Shape {
     Ends along_;
     double low_;  // radii (m)
     double high_;
+    glm::dvec3 centre_{};  // of a disc, as scenes give it
+    glm::dvec3 normal_{};
 };
 
 ShapePointer readDisc(Check& check, const v1::Obstacle& message, const std::string& field,
@@ -91,8 +101,7 @@ ShapePointer readDisc(Check& check, const v1::Obstacle& message, const std::stri
     const double hole = check.within(disc.hole(), 0, largestComponent, at(here, "hole"), " m");
     if (check.ok() && hole >= radius)
         check.refuse(at(here, "hole"), fmt::format("is {} m, must be below the radius of {} m", hole, radius));
-    normal = glm::normalize(normal);
-    return std::make_shared<Shell>(Shell::Form::Disc, Ends{centre - 0.5 * normal, centre + 0.5 * normal}, hole, radius);
+    return std::make_shared<Shell>(centre, unitVector(normal), hole, radius);
 }
 
 }  // namespace

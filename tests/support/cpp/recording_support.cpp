@@ -65,22 +65,24 @@ v1::ServerMessage orderMessage(std::uint32_t epoch, std::uint32_t spheres) {
     return message;
 }
 
-Film film(const std::string& path, std::uint32_t frames, bool finish) {
+Film film(const std::string& path, std::uint32_t frames, bool finish, std::uint32_t fileId) {
     Film film;
     codec::Encoder encoder("cpu", Film::spheres, Film::quantum);
     encoder.setOrder(orderOf(Film::spheres));
-    auto writer = Writer::create(path, false);
+    auto writer = Writer::create(path, false, fileId);
     if (!writer) throw std::runtime_error(writer.error().text());
     const auto add = [&](Kind kind, double time, const v1::ServerMessage& message) {
+        const std::uint64_t at = writer->bytes();
         check(writer->add(kind, time, message.SerializeAsString()));
-        film.records.push_back(recordBytes(kind, time, message.SerializeAsString()));
+        film.records.push_back(recordBytes(kind, time, message.SerializeAsString(), {.id = fileId}, at));
     };
     add(Kind::Scene, 0, sceneMessage(1, Film::spheres));
     add(Kind::Order, 0, orderMessage(1, Film::spheres));
     for (std::uint32_t n = 0; n < frames; ++n) {
         codec::Positions positions(Film::spheres);
+        const double phase = fileId - Film::fileId;
         for (std::uint32_t id = 0; id < Film::spheres; ++id)
-            positions[id] = {std::sin(0.3 * n + id), 0.1 * n * id, -0.01 * id * id, 0.5};
+            positions[id] = {std::sin(0.3 * n + id + phase), 0.1 * n * id, -0.01 * id * id, 0.5};
         const double time = Film::interval * n;
         add(n == 0 ? Kind::Keyframe : Kind::Delta, time,
             frameMessage(n, n == 0 ? encoder.begin(positions) : encoder.next(positions)));
@@ -92,7 +94,7 @@ Film film(const std::string& path, std::uint32_t frames, bool finish) {
     if (finish) {
         check(writer->finish());
     } else {
-        std::string bytes = fileHead();
+        std::string bytes = FileHead{.id = fileId}.bytes();
         for (const std::string& record : film.records) bytes += record;
         writeFile(path, bytes);
     }
@@ -101,12 +103,11 @@ Film film(const std::string& path, std::uint32_t frames, bool finish) {
 
 void filmWithRepeatedTimes(const std::string& path) {
     film(path, 10);
-    const auto file = RecordFile::open(path);
-    std::string content = fileHead();
-    std::uint64_t offset = fileHeadBytes;
-    for (auto record = file->read(offset); record; record = file->read(record->end))
-        if (record->kind != Kind::Index)
-            content += recordBytes(record->kind, std::floor(5 * record->time + 0.01) / 5, record->payload);
+    const std::string whole = contentOf(path);
+    std::string content = whole.substr(0, fileHeadBytes);
+    for (const std::string& record : recordsOf(whole))
+        if (kindOf(record) != Kind::Index)
+            addRecord(content, kindOf(record), std::floor(5 * timeOf(record) + 0.01) / 5, payloadOf(record));
     writeFile(path, content);
 }
 
@@ -120,13 +121,12 @@ v1::Pose poseInFilm(std::uint32_t n) {
 
 void filmWithObstacles(const std::string& path) {
     const Film plain = film(path, 12);
-    const auto file = RecordFile::open(path);
-    std::string content = fileHead();
-    std::uint64_t offset = fileHeadBytes;
-    for (auto record = file->read(offset); record; record = file->read(record->end)) {
-        if (record->kind == Kind::Index) continue;
+    const std::string whole = contentOf(path);
+    std::string content = whole.substr(0, fileHeadBytes);
+    for (const std::string& record : recordsOf(whole)) {
+        if (kindOf(record) == Kind::Index) continue;
         v1::ServerMessage message;
-        message.ParseFromString(record->payload);
+        message.ParseFromString(std::string(payloadOf(record)));
         for (int k = 0; message.has_scene() && k < 2; ++k) {
             v1::Box& cube = *message.mutable_scene()->add_obstacles()->mutable_box();
             for (const double least : {2.0 * k, 1.0, 2.5}) {
@@ -136,9 +136,16 @@ void filmWithObstacles(const std::string& path) {
         }
         if (message.has_frame())
             *message.mutable_frame()->add_poses() = poseInFilm(static_cast<std::uint32_t>(message.frame().step() / 6));
-        content += recordBytes(record->kind, record->time, message.SerializeAsString());
+        addRecord(content, kindOf(record), timeOf(record), message.SerializeAsString());
     }
     writeFile(path, content);
+}
+
+std::string fileOf(std::string_view records) {
+    std::string content = FileHead{.id = Film::fileId}.bytes();
+    content += records;
+    setChecksums(content);
+    return content;
 }
 
 std::string contentOf(const std::string& path) {

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "record_bytes.h"
 #include "recording/recording.h"
 #include "recording/writer.h"
 #include "temporary_folder.h"
@@ -21,12 +23,14 @@ struct Film {
     static constexpr std::uint32_t spheres = 70;
     static constexpr double quantum = 0.125;  // m
     static constexpr double interval = 0.1;   // s
+    static constexpr std::uint32_t fileId = 1;
     std::vector<Positions> frames;
-    std::vector<std::string> records;  // as in the file
+    std::vector<std::string> records;  // as in the file, without the index
 };
 
-// Writes the recording to `path`. `finish`: with index and trailer.
-Film film(const std::string& path, std::uint32_t frames, bool finish = true);
+// Writes the recording to `path`. `finish`: with index and trailer. `fileId`: in films of other ids the same spheres
+// move otherwise.
+Film film(const std::string& path, std::uint32_t frames, bool finish = true, std::uint32_t fileId = Film::fileId);
 
 // Writes a film in which each two frames have the same time, as when the simulation was paused.
 void filmWithRepeatedTimes(const std::string& path);
@@ -39,6 +43,9 @@ v1::Pose poseInFilm(std::uint32_t n);
 // Scene facts and order of a valid scene.
 v1::ServerMessage sceneMessage(std::uint32_t epoch, std::uint32_t spheres);
 v1::ServerMessage orderMessage(std::uint32_t epoch, std::uint32_t spheres);
+
+// Returns the content of a file with the id of films and these records. Their checksums become right for their places.
+std::string fileOf(std::string_view records);
 
 std::string contentOf(const std::string& path);
 void writeFile(const std::string& path, const std::string& content);

@@ -1,7 +1,9 @@
-"""Simulated faults: a driver that fails (faulty_driver.c), and a thread that is stopped."""
+"""Simulated faults: a driver that fails (faulty_driver.c), a full disk and a wrong clock (faulty_system.c), and a thread
+that is stopped."""
 import ctypes
 import json
 import os
+import struct
 import time
 
 SEIZE, INTERRUPT, DETACH = 0x4206, 0x4207, 17  # of ptrace
@@ -22,6 +24,34 @@ class FaultyDriver:
     def strike(self):
         with open(self._when, "w", encoding="utf-8"):
             pass
+
+    def heal(self):
+        """Programs that start from now on find a good driver, until the next strike."""
+        os.remove(self._when)
+
+
+class FaultySystem:
+    """An operating system with a wrong wall clock or a full disk, for programs started with `environment`."""
+
+    def __init__(self, folder, library):
+        self._path = os.path.join(folder, "faulty-system")
+        self._clock, self._full = 0, False
+        self._apply()
+        self.environment = {**os.environ, "LD_PRELOAD": library, "SPHERULE_FAULTY_SYSTEM": self._path}
+
+    def set_clock(self, seconds):
+        """The wall clock jumps to this offset from the right time."""
+        self._clock = seconds
+        self._apply()
+
+    def fill_disk(self, full):
+        """From now on, writes to files fail, or no longer fail."""
+        self._full = full
+        self._apply()
+
+    def _apply(self):
+        with open(self._path, "r+b" if os.path.exists(self._path) else "wb") as file:
+            file.write(struct.pack("=qq", self._clock, self._full))
 
 
 class HeldThread:

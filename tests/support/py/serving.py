@@ -2,14 +2,15 @@
 import http.client
 import re
 import subprocess
+import threading
 import urllib.request
 
 
 class Server:
-    def __init__(self, binary, command, *options, token=None, **more):
-        """`token`: for /metrics, if the server requires one."""
+    def __init__(self, binary, command, *options, token=None, port=0, **more):
+        """`token`: for /metrics, if the server requires one. `port`: 0 for a free one."""
         self._token = token
-        self._command = [binary, command, *options, "--listen", "127.0.0.1:0"]
+        self._command = [binary, command, *options, "--listen", f"127.0.0.1:{port}"]
         self._more = more
         self.said = ""  # its output, after it has ended
 
@@ -22,8 +23,15 @@ class Server:
             found = re.search(r"https?://(127\.0\.0\.1:\d+)", line)
             if found:
                 self._address = found.group(1)
+                self._reading = threading.Thread(target=self._read, daemon=True)
+                self._reading.start()
                 return self
         raise RuntimeError("".join(self.greeting))
+
+    def _read(self):
+        """Empties the pipe of its output, because the server drops lines that find no room in it."""
+        with self._process.stdout as lines:
+            self._lines = list(lines)
 
     def __exit__(self, *_):
         self.end()
@@ -32,13 +40,13 @@ class Server:
         """Stops the server and returns its exit code; its output is in `said`."""
         if self._process.returncode is None:
             (self._process.kill if kill else self._process.terminate)()
-            self.said = self._process.communicate(timeout=120)[0]
-        return self._process.returncode
+        return self.wait()
 
     def wait(self):
         """Waits until the server ends by itself and returns its exit code."""
-        if self._process.returncode is None:
-            self.said = self._process.communicate(timeout=120)[0]
+        self._process.wait(timeout=120)
+        self._reading.join()
+        self.said = "".join(self._lines)
         return self._process.returncode
 
     @property

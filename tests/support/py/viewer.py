@@ -101,3 +101,38 @@ class Viewer:
     def ended(self, patience=30):
         self.wait(lambda viewer: viewer.closed is not None, patience)
         return self.closed
+
+
+class Controller(Viewer):
+    """A viewer that sends commands at random, for the first 700 spheres of a scene."""
+
+    def __init__(self, port, **more):
+        super().__init__(port, **more)
+        self.sent = 0
+
+    def send(self, command):
+        """Sends a command and returns its id."""
+        self.sent += 1
+        self._send(0x1, json.dumps({"command": {"id": str(self.sent), **command}}).encode())
+        return str(self.sent)
+
+    def command(self, chance, without=()):
+        """`chance`: a random.Random. `without`: names of commands that are not sent."""
+        sphere = chance.randrange(700)
+        commands = {
+            "push": {"push": {"sphere": sphere,
+                              "impulse": [chance.uniform(-2, 2), chance.uniform(-2, 2), chance.uniform(0, 3)]}},
+            "pull": {"pull": {"sphere": sphere, "point": [chance.uniform(-1, 1), 0, 1]}},
+            "release": {"release": {}},
+            "remove": {"remove": {"spheres": [sphere]}},
+            "gravity": {"set": {"gravity": [chance.uniform(-2, 2), 0, -9.81]}},
+            "friction": {"set": {"friction": chance.uniform(0, 0.8)}},
+            "model": {"set": {"model": chance.choice(["FAST", "BALANCED"])}},
+            "checkpoint": {"checkpoint": {}},
+        }
+        self.send(commands[chance.choice([name for name in commands if name not in without])])
+
+    def result(self, command):
+        """Waits for the result of the command with this id."""
+        self.wait(lambda one: any(result["id"] == command for result in one.of("result")))
+        return next(result for result in self.of("result") if result["id"] == command)

@@ -9,6 +9,7 @@ class NoProducerCommands : public ProducerCommands {
     Result<void> startRecording() override { return none(); }
     Result<void> stopRecording() override { return none(); }
     Result<void> cancel() override { return none(); }
+    std::optional<Result<sim::Applied>> saveCheckpoint() override { return tl::unexpected(none().error()); }
 
     static Result<void> none() { return fail(ErrorKind::Refused, "", "there is no producer"); }
 };

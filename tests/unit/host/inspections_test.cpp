@@ -25,6 +25,8 @@ class NoEffects : public CommandExecutor::Effects {
     void worldChanged() override {}
     void publishChanges() override {}
     void reloaded(const Result<sim::Applied>& /*done*/) override {}
+    void carriedOut(const checkpoint::Keeper::Place& /*at*/, const Request& /*request*/) override {}
+    Result<void> checkCheckpoints() override { return {}; }
 };
 
 class Inspections : public testing::Test {

@@ -18,8 +18,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Returns the records of a scene and of a keyframe at `time` (s). All spheres have a radius of 0.5 m.
-std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
+// Adds the records of a scene and of a keyframe at `time` (s). All spheres have a radius of 0.5 m.
+void addScene(std::string& file, std::uint32_t spheres, std::uint32_t epoch, double time) {
     v1::ServerMessage scene;
     scene.mutable_scene()->set_epoch(epoch);
     scene.mutable_scene()->set_count(spheres);
@@ -41,9 +41,9 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
     frame.set_quantum(0.125);
     frame.set_count(spheres);
     frame.set_spb(bytes.data(), bytes.size());
-    return recording::recordBytes(recording::Kind::Scene, time, scene.SerializeAsString()) +
-           recording::recordBytes(recording::Kind::Order, time, order.SerializeAsString()) +
-           recording::recordBytes(recording::Kind::Keyframe, time, message.SerializeAsString());
+    recording::addRecord(file, recording::Kind::Scene, time, scene.SerializeAsString());
+    recording::addRecord(file, recording::Kind::Order, time, order.SerializeAsString());
+    recording::addRecord(file, recording::Kind::Keyframe, time, message.SerializeAsString());
 }
 
 // Plays a recording in a loop. Keeps the messages that a viewer receives.
@@ -95,8 +95,11 @@ TEST(PlaybackProducer, ShowsScenesInSequenceWithAnyEpochNumbers) {
     for (const std::uint32_t second : {1U, 2U}) {
         const recording::TemporaryFolder folder;
         const std::string path = folder / "film.sph";
-        recording::writeFile(
-            path, recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
+        std::string film = recording::FileHead().bytes();
+        addScene(film, 2, 1, 0);
+        addScene(film, 5, second, 0.1);
+        addScene(film, 3, second, 0.2);
+        recording::writeFile(path, film);
         Playback playback;
         playback.play(path, 6);
         ASSERT_EQ(playback.scenes.size(), 7U);

@@ -280,13 +280,12 @@ TEST_F(PlayerTest, StopsWhenNoIntactKeyframeFollowsDamage) {
 
 TEST_F(PlayerTest, WaitsForAFrameAfterALongInterval) {
     // The same frames with intervals of 10,000 s.
-    std::string content = recording::fileHead();
-    const auto film = recording::RecordFile::open(path_);
-    for (std::uint64_t offset = recording::fileHeadBytes;;) {
-        const auto record = film->read(offset);
-        if (!record || record->kind == recording::Kind::Index) break;
-        content += recording::recordBytes(record->kind, 1e5 * record->time, record->payload);
-        offset = record->end;
+    const std::string film = recording::contentOf(path_);
+    std::string content = film.substr(0, recording::fileHeadBytes);
+    for (const std::string& record : recording::recordsOf(film)) {
+        const auto kind = recording::kindOf(record);
+        if (kind == recording::Kind::Index) break;
+        recording::addRecord(content, kind, 1e5 * recording::timeOf(record), recording::payloadOf(record));
     }
     recording::writeFile(path_, content);
     open();

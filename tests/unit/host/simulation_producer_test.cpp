@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <filesystem>
 #include <functional>
@@ -295,12 +296,14 @@ TEST(SimulationProducer, TellsThatTheWatchedSceneIsGone) {
 TEST(SimulationProducer, BroadcastsTheProgressOfALongChange) {
     TestSessions sessions;
     sessions.give(packed, 7);
-    sessions.run([&] { return sessions.changes.size() >= 3; });
-    ASSERT_GE(sessions.changes.size(), 3U);
+    // On a busy machine, a shorter piece of work may last long enough for a message of its own.
+    const auto places = [](const v1::Change& change) { return change.doing() == "placing spheres"; };
+    sessions.run([&] { return std::ranges::count_if(sessions.changes, places) >= 3; });
+    ASSERT_GE(std::ranges::count_if(sessions.changes, places), 3);
     for (const v1::Change& change : sessions.changes) {
         EXPECT_EQ(change.what(), "load packed");
-        EXPECT_EQ(change.doing(), "placing spheres");
         EXPECT_EQ(change.session(), 7U);
+        if (!places(change)) continue;
         EXPECT_GT(change.share(), 0);
         EXPECT_LT(change.share(), 1);
     }

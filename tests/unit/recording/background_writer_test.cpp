@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -63,10 +65,61 @@ TEST_F(SlowDisk, DropsFramesWithoutBlocking) {
     EXPECT_FALSE(writer_->progress().ended);
 }
 
+TEST_F(SlowDisk, LetsALogWaitAndFramesPass) {
+    writer_->beginLog();
+    std::atomic<int> taken = 0;
+    std::jthread log([&] {
+        const std::string megabyte(1'000'000, 'x');
+        while (taken < 100) {
+            writer_->addLog(megabyte);
+            ++taken;
+        }
+    });
+    for (int before = -1; before != taken;) {
+        before = taken;
+        std::this_thread::sleep_for(200ms);
+    }
+    EXPECT_LT(taken, 50);
+    const auto megabyte = messageOf(1'000'000);
+    for (int k = 0; k < 20; ++k) EXPECT_TRUE(writer_->add(Kind::Delta, k, megabyte));
+    writer_->endLog();  // what waits is dropped
+    log.join();
+    EXPECT_EQ(taken, 100);
+}
+
 TEST_F(SlowDisk, LimitsRecordsThatFramesNeed) {
     const auto much = messageOf(10'000'000);
     for (int k = 0; k < 60; ++k) EXPECT_TRUE(writer_->add(Kind::Order, k, much));
     EXPECT_EQ(writer_->progress().failure, "the disk is too slow: 256 MiB wait to be written");
+}
+
+TEST(BackgroundWriter, EndsAfterItsLog) {
+    const TemporaryFolder folder;
+    auto writer = BackgroundWriter::create(folder / "film.sph", false, 0);
+    ASSERT_TRUE(writer);
+    (*writer)->beginLog();
+    (*writer)->addLog("one");
+    ASSERT_TRUE((*writer)->add(Kind::Keyframe, 3, messageOf(10)));
+    (*writer)->finish();
+    std::this_thread::sleep_for(50ms);
+    EXPECT_FALSE((*writer)->progress().ended);
+    ASSERT_TRUE((*writer)->add(Kind::Delta, 4, messageOf(10)));  // comes too late
+    (*writer)->addLog("two");
+    (*writer)->endLog();
+    (*writer)->addLog("three");  // comes too late
+    EXPECT_EQ(ended(**writer).failure, "");
+    const auto file = RecordFile::open(folder / "film.sph");
+    ASSERT_TRUE(file);
+    const auto first = file->read(fileHeadBytes);
+    const auto second = file->read(first->end);
+    const auto third = file->read(second->end);
+    EXPECT_EQ(first->kind, Kind::Log);
+    EXPECT_EQ(first->payload, "one");
+    EXPECT_EQ(second->kind, Kind::Keyframe);
+    EXPECT_EQ(third->kind, Kind::Log);
+    EXPECT_EQ(third->payload, "two");
+    EXPECT_EQ(third->time, 3);
+    EXPECT_EQ(file->read(third->end)->kind, Kind::Index);
 }
 
 TEST(BackgroundWriter, WritesAllRecordsBeforeItEnds) {

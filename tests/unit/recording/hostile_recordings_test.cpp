@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "recording/bytes.h"
+#include "recording/record.h"
 #include "recording_support.h"
 
 namespace spherule::recording {
@@ -14,9 +15,10 @@ namespace {
 
 class Hostile : public testing::Test {
   protected:
-    // Returns why a file with these bytes after its head cannot be opened or played; empty if it can.
+    // Returns why a file with these bytes after its head cannot be opened or played; empty if it can. Its records get
+    // the checksums of their places.
     std::string refusalOf(const std::string& behindHead) {
-        writeFile(path_, fileHead() + behindHead);
+        writeFile(path_, fileOf(behindHead));
         auto recording = Recording::open(path_);
         if (!recording) return recording.error().text().substr(path_.size() + 2);
         std::string end;
@@ -29,14 +31,17 @@ class Hostile : public testing::Test {
         for (std::size_t record = 0; record < film_.records.size(); ++record) {
             const std::string& whole = film_.records[record];
             v1::ServerMessage message;
-            message.ParseFromString(whole.substr(recordHeadBytes, whole.size() - recordHeadBytes - checksumBytes));
+            message.ParseFromString(std::string(payloadOf(whole)));
             if (record == changed) change(message);
-            bytes += recordBytes(static_cast<Kind>(whole[4]), 0, message.SerializeAsString());
+            bytes += unplaced(kindOf(whole), message.SerializeAsString());
         }
         const std::string refusal = refusalOf(bytes);
         const auto colon = refusal.find("damaged: ");
         return colon == std::string::npos ? refusal : refusal.substr(colon + 9);
     }
+
+    // Returns a record at the time 0, without the checksum of a place.
+    static std::string unplaced(Kind kind, std::string_view payload) { return recordBytes(kind, 0, payload, {}, 0); }
 
     TemporaryFolder folder_;
     std::string path_ = folder_ / "film.sph";
@@ -50,10 +55,13 @@ TEST_F(Hostile, RefusesOtherFiles) {
     };
     EXPECT_EQ(refusal("time,id,x,y,z,vx,vy,vz,radius\n"), "is no recording: it does not begin like one");
     EXPECT_EQ(refusal(""), "is no recording: it has only 0 bytes");
-    EXPECT_EQ(refusal(fileHead()), "has no frames: it was not finished");
-    std::string newer = fileHead();
-    newer[8] = 2;
-    EXPECT_EQ(refusal(newer), "is of version 2 of the format, this program reads version 1");
+    EXPECT_EQ(refusal(FileHead().bytes()), "has no frames: it was not finished");
+    EXPECT_EQ(refusal(FileHead{.version = 1}.bytes()), "has no frames: it was not finished");
+    EXPECT_EQ(refusal(FileHead{.version = 3, .id = 7}.bytes()),
+              "is of version 3 of the format; this program, spherule " SPHERULE_VERSION
+              ", reads versions 1 and 2: use a newer spherule");
+    EXPECT_EQ(refusal(FileHead{.version = 1, .id = 7}.bytes()), "is no recording: its head is damaged");
+    EXPECT_EQ(refusal(FileHead{.version = 0}.bytes()), "is no recording: its head is damaged");
     EXPECT_EQ(Recording::open(folder_ / "none").error().text(), (folder_ / "none") + ": there is no such file");
     EXPECT_EQ(Recording::open("/tmp").error().text(), "/tmp: is a folder, must be a regular file");
 }
@@ -99,7 +107,7 @@ TEST_F(Hostile, RefusesFramesOfOtherSpheres) {
     EXPECT_NE(refusalOf(records[0] + records[1] + records[2] + records[4]).find("does not follow"), std::string::npos);
     EXPECT_NE(refusalOf(records[1] + records[2]).find("no scene or no order comes before"), std::string::npos);
     EXPECT_NE(refusalOf(records[0] + records[1] + records[3]).find("has no frames"), std::string::npos);
-    EXPECT_NE(refusalOf(records[0] + records[1] + recordBytes(Kind::Keyframe, 0, "\xff")).find("no message"),
+    EXPECT_NE(refusalOf(records[0] + records[1] + unplaced(Kind::Keyframe, "\xff")).find("no message"),
               std::string::npos);
 }
 
@@ -108,7 +116,7 @@ TEST_F(Hostile, DoesNotTrustTheIndex) {
     const std::string bytes = film_.records[0] + film_.records[1] + film_.records[2];
     const std::uint64_t at = fileHeadBytes + bytes.size();
     const auto refusal = [&](const Index& index) {
-        std::string end = recordBytes(Kind::Index, 0, index.payload());
+        std::string end = unplaced(Kind::Index, index.payload());
         append(end, at);
         end.append(endMagic.begin(), endMagic.end());
         return refusalOf(bytes + end);

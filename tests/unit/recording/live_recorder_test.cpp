@@ -182,6 +182,28 @@ TEST_F(LiveRecording, MakesOneRecordingAtATimeWithAUniqueName) {
     EXPECT_NE(recorder_->changedState(LiveRecorder::Clock::now())->file(), first);
 }
 
+TEST_F(LiveRecording, EndsWhenItsLogHasBeenClosed) {
+    options_.log = true;
+    open();
+    order();
+    EXPECT_FALSE(recorder_->wantsLog());
+    ASSERT_TRUE(recorder_->start());
+    EXPECT_TRUE(recorder_->wantsLog());
+    EXPECT_FALSE(recorder_->wantsLog());
+    const auto log = recorder_->logSink();
+    recorder_->publish(encoded(FrameKind::Keyframe, 0));
+    ASSERT_TRUE(recorder_->stop());
+    const auto refused = recorder_->start();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().cause, Cause::Busy);
+    EXPECT_NE(refused.error().message.find("is still being written: wait until it is done"), std::string::npos);
+    ASSERT_TRUE(log->write("the end of the log"));
+    ASSERT_TRUE(log->close());
+    ASSERT_TRUE(Recording::open(ended().file()));
+    EXPECT_FALSE(recorder_->endedEmpty());
+    ASSERT_TRUE(recorder_->start());
+}
+
 TEST_F(LiveRecording, LimitsTheSizeOfTheFolder) {
     options_.folderBytes = 3'000'000;
     std::filesystem::create_directories(options_.folder);

@@ -11,6 +11,7 @@
 #include "recording/exporter.h"
 #include "recording/output_file.h"
 #include "recording_support.h"
+#include "synced_folders.h"
 
 namespace spherule::recording {
 namespace {
@@ -46,6 +47,30 @@ TEST_F(Output, UnfinishedFileIsRemoved) {
         file->persist();
     }
     EXPECT_EQ(contentOf(path_), "half");
+}
+
+// The name of a new file is on the disk with its content.
+TEST_F(Output, TheFolderOfANewFileIsSyncedWithIt) {
+    auto& synced = support::syncedFolders();
+    const std::string folder = fs::canonical(folder_ / "").string();
+    const auto syncs = [&](Result<OutputFile> file) {
+        synced.clear();
+        EXPECT_TRUE(file && file->write("a"));
+        EXPECT_TRUE(file->flush());
+        EXPECT_FALSE(synced.contains(folder));
+        EXPECT_TRUE(file->sync());
+        const bool first = synced.contains(folder);
+        synced.clear();
+        EXPECT_TRUE(file->write("b") && file->sync());
+        EXPECT_FALSE(synced.contains(folder)) << "it has the name already";
+        EXPECT_TRUE(file->close());
+        return first;
+    };
+    EXPECT_TRUE(syncs(OutputFile::create(path_, false)));
+    EXPECT_FALSE(syncs(OutputFile::create(path_, true))) << "it was there before";
+    EXPECT_FALSE(syncs(OutputFile::goOn(path_, 1)));
+    EXPECT_FALSE(syncs(OutputFile::create(folder_ / "later", false, WhenClosed)));
+    EXPECT_TRUE(synced.contains(folder)) << "when it is closed";
 }
 
 TEST_F(Output, ReplacedFileStaysUntilTheFirstWrite) {
@@ -138,7 +163,7 @@ TEST_F(Output, IdleRecordingEndsWhenItsFileIsDeleted) {
 
 TEST_F(Output, RecordingWithoutFramesIsRemoved) {
     {
-        auto writer = Writer::create(path_, false);
+        auto writer = Writer::create(path_, false, 1);
         ASSERT_TRUE(writer && writer->add(Kind::Other, 0, "abc") && writer->finish());
     }
     EXPECT_EQ(names(), Names());

@@ -13,7 +13,6 @@
 
 #include "recording/bytes.h"
 #include "recording/exporter.h"
-#include "recording/record.h"
 #include "recording_support.h"
 
 namespace spherule::recording {
@@ -61,13 +60,13 @@ TEST_F(Poses, AreThoseOfTheFrameAlsoAfterASeek) {
 TEST_F(Poses, OfOtherObstaclesOrWithoutMeaningAreDamage) {
     const auto damage = [this](void (*change)(v1::Frame&)) {
         const std::string damaged = folder_ / "damaged.sph";
-        const auto file = RecordFile::open(path_);
-        std::string content = fileHead();
-        for (auto record = file->read(fileHeadBytes); record; record = file->read(record->end)) {
+        const std::string whole = contentOf(path_);
+        std::string content = whole.substr(0, fileHeadBytes);
+        for (const std::string& record : recordsOf(whole)) {
             v1::ServerMessage message;
-            message.ParseFromString(record->payload);
+            message.ParseFromString(std::string(payloadOf(record)));
             if (message.has_frame()) change(*message.mutable_frame());
-            content += recordBytes(record->kind, record->time, message.SerializeAsString());
+            addRecord(content, kindOf(record), timeOf(record), message.SerializeAsString());
         }
         writeFile(damaged, content);
         const auto recording = Recording::open(damaged);

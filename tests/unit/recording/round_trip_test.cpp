@@ -68,12 +68,9 @@ TEST(SphereTable, HasTheGroupsThatFitTheSpheres) {
 
 TEST_F(RoundTrip, FilePlaysWhileItIsWritten) {
     const Film film = recording::film(folder_ / "whole.sph", 1);
-    auto writer = Writer::create(path_, false);
+    auto writer = Writer::create(path_, false, Film::fileId);
     ASSERT_TRUE(writer);
-    for (const std::string& record : film.records) {
-        const std::size_t bytes = record.size() - recordHeadBytes - checksumBytes;
-        ASSERT_TRUE(writer->add(static_cast<Kind>(record[4]), 0, record.substr(recordHeadBytes, bytes)));
-    }
+    for (const std::string& record : film.records) ASSERT_TRUE(writer->add(kindOf(record), 0, payloadOf(record)));
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_EQ(recording->frames(), 1U);
@@ -98,21 +95,19 @@ TEST_F(RoundTrip, SeekFindsTheLastFrameNotAfterTheTime) {
 
 TEST_F(RoundTrip, SceneMayChange) {
     recording::film(path_, 3, false);
-    const std::string first = contentOf(path_);
+    std::string content = contentOf(path_);
     // The same records again, with another epoch and later times.
-    std::string second;
-    for (std::uint64_t offset = fileHeadBytes; const auto& kind : {Kind::Scene, Kind::Order, Kind::Keyframe}) {
-        const auto record = RecordFile::open(path_)->read(offset);
-        ASSERT_TRUE(record);
+    std::vector<std::string> again = recordsOf(content);
+    again.resize(3);  // scene, order and keyframe
+    for (const std::string& record : again) {
         v1::ServerMessage message;
-        ASSERT_TRUE(message.ParseFromString(record->payload));
+        ASSERT_TRUE(message.ParseFromString(std::string(payloadOf(record))));
         if (message.has_scene()) message.mutable_scene()->set_epoch(2);
         if (message.has_order()) message.mutable_order()->set_epoch(2);
         if (message.has_frame()) message.mutable_frame()->set_epoch(2);
-        second += recordBytes(kind, 5, message.SerializeAsString());
-        offset = record->end;
+        addRecord(content, kindOf(record), 5, message.SerializeAsString());
     }
-    writeFile(path_, first + second);
+    writeFile(path_, content);
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_EQ(play(*recording).size(), 4U);
@@ -125,17 +120,17 @@ TEST_F(RoundTrip, SceneMayChange) {
 
 TEST_F(RoundTrip, ExistingFileIsReplacedOnlyOnRequest) {
     writeFile(path_, "precious");
-    const auto refused = Writer::create(path_, false);
+    const auto refused = Writer::create(path_, false, 1);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().text(), path_ + ": is there already; give --force to replace it, or another name");
     EXPECT_EQ(contentOf(path_), "precious");
-    EXPECT_TRUE(Writer::create(path_, true));
+    EXPECT_TRUE(Writer::create(path_, true, 1));
 }
 
 TEST_F(RoundTrip, ReportsPathAndReasonOfAWriteError) {
-    EXPECT_EQ(Writer::create(folder_ / "no/film.sph", false).error().text(),
+    EXPECT_EQ(Writer::create(folder_ / "no/film.sph", false, 1).error().text(),
               (folder_ / "no/film.sph") + ": cannot be written: No such file or directory; make its folder first");
-    const auto full = Writer::create("/dev/full", true);
+    const auto full = Writer::create("/dev/full", true, 1);
     ASSERT_FALSE(full);
     EXPECT_EQ(full.error().kind, ErrorKind::Refused);
     EXPECT_EQ(full.error().text(),

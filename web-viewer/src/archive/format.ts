@@ -2,7 +2,17 @@ import { xxh3 } from "./xxh3";
 
 /** The container of recordings, after docs/recordings.md. All numbers are little endian. */
 
-export const Kind = { scene: 1, order: 2, settings: 3, other: 4, keyframe: 5, resync: 6, delta: 7, index: 8 } as const;
+export const Kind = {
+  scene: 1,
+  order: 2,
+  settings: 3,
+  other: 4,
+  keyframe: 5,
+  resync: 6,
+  delta: 7,
+  index: 8,
+  log: 9, // since version 2
+} as const;
 
 export const headBytes = 16; // of the file
 export const recordHeadBytes = 16;
@@ -11,9 +21,21 @@ export const mostPayload = 2 ** 30; // bytes
 export const indexHeadBytes = 24;
 export const entryBytes = 24; // of the index
 export const trailerBytes = 16;
-export const version = 1;
+export const newestVersion = 2; // written
+export const oldestVersion = 1; // read, as all versions up to the newest
 export const fileMagic = "SPHREC\r\n";
 export const endMagic = "SPHEND\r\n";
+
+/** True for the kinds above that this version of the format has. */
+export function isKnown(kind: number, version: number): boolean {
+  return kind >= Kind.scene && kind <= (version === 1 ? Kind.index : Kind.log);
+}
+
+/** The head of a file. */
+export interface FileHead {
+  version: number;
+  id: number; // 32 bits, tells recordings apart: checksums are of it; 0 in version 1
+}
 
 /** A record of which the index tells the place. */
 export interface IndexEntry {
@@ -31,14 +53,36 @@ export function viewOf(bytes: Uint8Array): DataView {
 }
 
 /** A file without records. */
-export function fileHead(): Uint8Array<ArrayBuffer> {
+export function fileOf({ version, id }: FileHead): Uint8Array<ArrayBuffer> {
   const head = new Uint8Array(headBytes);
   head.set(asciiOf(fileMagic));
   viewOf(head).setUint32(8, version, true);
+  viewOf(head).setUint32(12, id, true);
   return head;
 }
 
-export function recordOf(kind: number, time: number, payload: Uint8Array): Uint8Array<ArrayBuffer> {
+/**
+ * The checksum of a record, of which `record` has the head and the payload. `offset`: of the record in the file. In
+ * version 1 a record has the same checksum at each place of each file.
+ */
+export function checksumOf(record: Uint8Array, { version, id }: FileHead, offset: number): bigint {
+  const own = xxh3(record);
+  if (version === 1) return own;
+  const placed = new DataView(new ArrayBuffer(20));
+  placed.setBigUint64(0, own, true);
+  placed.setBigUint64(8, BigInt(offset), true);
+  placed.setUint32(16, id, true);
+  return xxh3(new Uint8Array(placed.buffer));
+}
+
+/** A record with head and checksum, as at `offset` of the file. */
+export function recordOf(
+  kind: number,
+  time: number,
+  payload: Uint8Array,
+  file: FileHead,
+  offset: number,
+): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(recordHeadBytes + payload.byteLength + checksumBytes);
   const view = viewOf(bytes);
   view.setUint32(0, payload.byteLength, true);
@@ -46,7 +90,7 @@ export function recordOf(kind: number, time: number, payload: Uint8Array): Uint8
   view.setFloat64(8, time, true);
   bytes.set(payload, recordHeadBytes);
   const hashed = bytes.byteLength - checksumBytes;
-  view.setBigUint64(hashed, xxh3(bytes.subarray(0, hashed)), true);
+  view.setBigUint64(hashed, checksumOf(bytes.subarray(0, hashed), file, offset), true);
   return bytes;
 }
 

@@ -10,9 +10,10 @@ import { decode } from "../connection/protocol";
 import { ServerMessageSchema } from "../gen/spherule/v1/control_pb";
 import type { ServerMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
 import type { SceneFacts } from "../gen/spherule/v1/facts_pb";
-import { checksumBytes, endMagic, entryBytes, fileMagic, headBytes, indexHeadBytes, Kind } from "./format";
-import { mostPayload, recordHeadBytes, textAt, trailerBytes, version, viewOf } from "./format";
-import { xxh3 } from "./xxh3";
+import { checksumBytes, checksumOf, endMagic, entryBytes, fileMagic, headBytes, indexHeadBytes } from "./format";
+import { isKnown, Kind, mostPayload, newestVersion, oldestVersion, recordHeadBytes } from "./format";
+import { textAt, trailerBytes, viewOf } from "./format";
+import type { FileHead } from "./format";
 
 const mostDamage = 20; // reports
 
@@ -25,8 +26,7 @@ interface Record {
 
 /** Reads a recording for playback. Throws an Error that says what is wrong, and where, if nothing can be played. */
 export function readRecording(bytes: Uint8Array): RecordingContent {
-  checkHead(bytes);
-  const reader = new RecordingReader(bytes);
+  const reader = new RecordingReader(bytes, headOf(bytes));
   reader.read();
   const { segments, settings, source, end, flaw, damage } = reader;
   const [first] = segments;
@@ -35,11 +35,17 @@ export function readRecording(bytes: Uint8Array): RecordingContent {
   return { segments, settings, source, end, flaw, damage };
 }
 
-function checkHead(bytes: Uint8Array): void {
+function headOf(bytes: Uint8Array): FileHead {
   if (textAt(bytes, 0, fileMagic.length) !== fileMagic) throw new Error("is no recording: it does not begin like one");
   if (bytes.byteLength < headBytes) throw new Error(`is no recording: it has only ${bytes.byteLength} bytes`);
-  const found = viewOf(bytes).getUint32(8, true);
-  if (found !== version) throw new Error(`is of version ${found} of the format, this page reads version ${version}`);
+  const version = viewOf(bytes).getUint32(8, true);
+  const id = viewOf(bytes).getUint32(12, true);
+  if (version > newestVersion) {
+    const read = `versions ${oldestVersion} and ${newestVersion}`;
+    throw new Error(`is of version ${version} of the format; this page reads ${read}: use a newer spherule`);
+  }
+  if (version < oldestVersion || (version === 1 && id !== 0)) throw new Error("is no recording: its head is damaged");
+  return { version, id };
 }
 
 class RecordingReader {
@@ -59,7 +65,10 @@ class RecordingReader {
   private readonly begins: number[]; // offsets of keyframes in the index, if there is one
   private readonly last: number; // byte after the last record
 
-  constructor(private readonly bytes: Uint8Array) {
+  constructor(
+    private readonly bytes: Uint8Array,
+    private readonly head: FileHead,
+  ) {
     this.view = viewOf(bytes);
     const index = this.indexOffset();
     this.last = index ?? bytes.byteLength;
@@ -130,13 +139,14 @@ class RecordingReader {
     const hashed = at + recordHeadBytes + length;
     if (length > mostPayload) throw bad("is damaged: it is too long");
     if (hashed + checksumBytes > bytes.byteLength) throw bad("is cut off");
-    if (kind < Kind.scene || kind > Kind.index || !Number.isFinite(time)) throw bad("is damaged: its head is invalid");
-    if (view.getBigUint64(hashed, true) !== xxh3(bytes.subarray(at, hashed))) {
+    if (!isKnown(kind, this.head.version) || !Number.isFinite(time)) throw bad("is damaged: its head is invalid");
+    if (view.getBigUint64(hashed, true) !== checksumOf(bytes.subarray(at, hashed), this.head, at)) {
       throw bad("is damaged: its checksum differs");
     }
     return { kind, time, payload: bytes.subarray(at + recordHeadBytes, hashed), end: hashed + checksumBytes };
   }
 
+  /** Playback does not need logs. Their checksums count: one changed bit makes a log of a scene. */
   private take({ kind, time, payload }: Record): void {
     const begins = kind === Kind.keyframe || (kind === Kind.resync && !this.segment);
     if (begins) this.open(time, undefined);

@@ -11,8 +11,8 @@ import type { Population } from "../gen/spherule/v1/facts_pb";
 import { FrameSchema, OrderSchema } from "../gen/spherule/v1/frame_pb";
 import type { Frame } from "../gen/spherule/v1/frame_pb";
 import { WelcomeSchema } from "../gen/spherule/v1/control_pb";
-import { fileHead, headBytes, indexOf, Kind, recordOf, trailerOf } from "./format";
-import type { IndexEntry } from "./format";
+import { fileOf, headBytes, indexOf, Kind, newestVersion, recordOf, trailerOf } from "./format";
+import type { FileHead, IndexEntry } from "./format";
 import { spheresOf } from "./spheres";
 import type { Spheres } from "./spheres";
 
@@ -25,7 +25,8 @@ const hashEvery = 1; // s
  */
 export class RecordingWriter {
   frames = 0;
-  readonly parts: Uint8Array<ArrayBuffer>[] = [fileHead()];
+  private readonly head: FileHead = { version: newestVersion, id: Math.floor(Math.random() * 2 ** 32) };
+  readonly parts: Uint8Array<ArrayBuffer>[] = [fileOf(this.head)];
   private length = headBytes;
   private readonly index: IndexEntry[] = [];
   private readonly decoder = new Frames(new BufferPool());
@@ -63,7 +64,8 @@ export class RecordingWriter {
   /** Call after the last segment. */
   finish(): void {
     const at = this.length;
-    this.append(recordOf(Kind.index, this.time, indexOf(this.frames, this.begin, this.time, this.index)));
+    const index = indexOf(this.frames, this.begin, this.time, this.index);
+    this.append(recordOf(Kind.index, this.time, index, this.head, at));
     this.append(trailerOf(at));
   }
 
@@ -149,7 +151,7 @@ export class RecordingWriter {
     const indexed = kind !== Kind.other && kind !== Kind.delta;
     if (indexed) this.index.push({ offset: this.length, time: this.time, kind });
     const payload = toBinary(ServerMessageSchema, create(ServerMessageSchema, { kind: message }));
-    this.append(recordOf(kind, this.time, payload));
+    this.append(recordOf(kind, this.time, payload, this.head, this.length));
   }
 
   private append(bytes: Uint8Array<ArrayBuffer>): void {

@@ -135,7 +135,7 @@ function graphicsNotice(graphics: Graphics): Notice | undefined {
       return {
         id: "graphics-lost",
         title: "The browser has stopped the drawing",
-        text: "It usually goes on within seconds. The simulation is not affected. If the picture stays away, reload.",
+        text: "It usually goes on within seconds. If not, reload. The simulation is not affected.",
         actions: ["reload"],
         patient: false,
       };

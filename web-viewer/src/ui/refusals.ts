@@ -26,7 +26,7 @@ const texts: Partial<Record<Cause, string>> = {
   [Cause.ENDED]: "A later command has replaced this one.",
   [Cause.CANCELLED]: "Cancelled. Nothing has changed.",
   [Cause.TOO_MANY_COMMANDS]: "Too many commands at once. Wait a second, and try again.",
-  [Cause.NOT_ALLOWED]: "You can watch but not control. Controlling takes another token.",
+  [Cause.NOT_ALLOWED]: "You can watch but not control. That takes another token.",
   [Cause.CONTROL_HELD]: "Somebody else has control. Request it above the buttons.",
   [Cause.NO_SUCH_SPHERE]: "This sphere does not exist any more. Select another.",
   [Cause.NO_HIT]: "There is no sphere. Aim at one.",
@@ -37,11 +37,12 @@ const texts: Partial<Record<Cause, string>> = {
   [Cause.NON_FINITE_STATE]: "The simulation became unstable. Choose a better quality, or reset the scene.",
   [Cause.PLAYBACK]: "A recording is played here. Only its position and speed can be changed.",
   [Cause.NO_RECORDINGS]: "This server keeps no recordings.",
+  [Cause.NO_CHECKPOINTS]: "This server keeps no checkpoints.",
   [Cause.RECORDING_ALREADY]: "The server is recording already.",
   [Cause.NOT_RECORDING]: "Nothing is being recorded.",
-  [Cause.RECORDINGS_FULL]: "The server has no room for another recording. Delete some of them there.",
+  [Cause.RECORDINGS_FULL]: "The server has no room for another recording. Delete some there.",
   [Cause.NOTHING_TO_CANCEL]: "There is nothing to cancel any more.",
-  [Cause.UNFIT]: "The server does not understand this page. Reload it: it may be older than the server.",
+  [Cause.UNFIT]: "The server does not understand this page. Reload it: it may be older.",
   [Cause.STOPPING]: "The server is stopping.",
 };
 

@@ -41,8 +41,7 @@ export class StreamFolder {
       set: (rate) => change({ rate }),
     });
     folder.choice("fixed", "If too slow", {
-      title:
-        "If this page or its connection is too slow: Automatic lowers precision and frame rate, Fixed skips frames",
+      title: "If page or connection are slow: Automatic lowers precision and frame rate, Fixed skips frames",
       options: fixedNames,
       get: () => choices.view.fixed,
       set: (fixed) => change({ fixed }),

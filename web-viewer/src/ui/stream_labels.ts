@@ -34,7 +34,7 @@ export function streamFigures(
       id: "tier",
       name: "Error, sent",
       value: sent ? tierLabel(sent.tier) : "–",
-      about: "Largest error of a position on each axis, in the frames that the server sends. r is the smallest radius",
+      about: "Largest error of a position in frames, on each axis. r is the smallest radius",
       warning: coarser,
     },
     {

@@ -1,0 +1,192 @@
+#include "checkpoint/folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/input_file.h"
+#include "core/log.h"
+#include "recording/output_file.h"
+
+namespace spherule::checkpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view prefix = "checkpoint-";
+constexpr std::string_view suffix = ".sphc";
+constexpr const char* passedOver = ".bad";  // added to the names of checkpoints that were passed over
+constexpr const char* lockName = "lock";
+constexpr std::uint64_t mostNumber = 1'000'000'000'000;
+
+std::string nameOf(std::uint64_t number) {
+    return fmt::format("{}{:08}{}", prefix, number, suffix);
+}
+
+// Returns the number in the name of a checkpoint; nullopt for other names.
+std::optional<std::uint64_t> numberIn(std::string_view name) {
+    if (!name.starts_with(prefix)) return std::nullopt;
+    std::uint64_t number = 0;
+    std::from_chars(name.data() + prefix.size(), name.data() + name.size(), number);
+    if (number > mostNumber || nameOf(number) != name) return std::nullopt;
+    return number;
+}
+
+// Returns the numbers of the checkpoints in a folder, ascending. `error`: why it cannot be read.
+std::vector<std::uint64_t> numbersIn(const std::string& path, std::error_code& error) {
+    std::vector<std::uint64_t> numbers;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error))
+        if (const auto number = numberIn(entry->path().filename().string())) numbers.push_back(*number);
+    std::ranges::sort(numbers);
+    return numbers;
+}
+
+// Removes files that were not complete when a program was killed.
+void removeParts(const std::string& path) {
+    std::vector<fs::path> parts;
+    std::error_code error;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        const std::size_t part = name.rfind(".part");
+        if (part != std::string::npos && numberIn(std::string_view(name).substr(0, part)))
+            parts.push_back(entry->path());
+    }
+    for (const fs::path& one : parts) fs::remove(one, error);
+}
+
+// Makes a folder and those in which it is, with their names on the disk.
+std::error_code makeFolder(const std::string& path) {
+    std::error_code error;
+    std::vector<fs::path> missing;
+    for (fs::path one = fs::absolute(path, error); !one.empty() && !fs::exists(one, error); one = one.parent_path())
+        missing.push_back(one);
+    fs::create_directories(path, error);
+    for (const fs::path& made : missing)
+        if (const int failure = error ? 0 : recording::syncNamesIn(made.parent_path().string()); failure != 0)
+            error.assign(failure, std::generic_category());
+    return error;
+}
+
+}  // namespace
+
+Result<Folder> Folder::open(const std::string& path, unsigned keep) {
+    std::error_code error = makeFolder(path);
+    if (error)
+        return fail(ErrorKind::Input, path,
+                    fmt::format("cannot be the folder of checkpoints: {}; choose a folder that can be made and written",
+                                error.message()));
+    const std::string lockPath = path + "/" + lockName;
+    const int lock = ::open(lockPath.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock < 0)
+        return fail(
+            ErrorKind::Input, path,
+            fmt::format("cannot hold checkpoints: {}; choose a folder that you may write to", std::strerror(errno)));
+    if (flock(lock, LOCK_EX | LOCK_NB) != 0) {
+        const int why = errno;
+        ::close(lock);
+        if (why == EWOULDBLOCK)
+            return fail(ErrorKind::Input, path,
+                        "is used by another program, which writes its checkpoints there; choose another folder");
+        return fail(ErrorKind::Input, path,
+                    fmt::format("cannot be locked: {}; choose a folder on another file system", std::strerror(why)));
+    }
+    Folder folder(path, std::max(keep, 1U), lock);
+    const auto numbers = numbersIn(path, error);
+    if (error)
+        return fail(ErrorKind::Input, path,
+                    fmt::format("cannot be read: {}; choose a folder that you may read", error.message()));
+    removeParts(path);
+    if (!numbers.empty()) folder.last_ = numbers.back();
+    return folder;
+}
+
+Folder::Folder(Folder&& other) noexcept
+    : path_(std::move(other.path_)), keep_(other.keep_), lock_(std::exchange(other.lock_, -1)), last_(other.last_) {}
+
+Folder::~Folder() {
+    if (lock_ >= 0) ::close(lock_);
+}
+
+std::vector<std::uint64_t> Folder::numbers() const {
+    std::error_code ignored;  // open() has read it
+    return numbersIn(path_, ignored);
+}
+
+std::string Folder::pathOf(std::uint64_t number) const {
+    return path_ + "/" + nameOf(number);
+}
+
+Result<std::optional<std::string>> Folder::useNewest(const Use& use, const std::function<void(const Error&)>& skipped) {
+    for (std::vector<std::uint64_t> all = numbers(); !all.empty(); all.pop_back()) {
+        const std::string path = pathOf(all.back());
+        auto world = readCheckpoint(path);
+        auto used = world ? use(std::move(*world)) : Result<void>(tl::unexpected(world.error()));
+        if (used) return path;
+        if (used.error().where.empty()) used.error().where = path;
+        if (used.error().kind != ErrorKind::Input) return tl::unexpected(used.error());
+        skipped(used.error());
+        std::error_code error;
+        fs::rename(path, path + passedOver, error);
+        if (error) spdlog::warn("{} cannot be renamed: {}", path, error.message());
+    }
+    return std::nullopt;
+}
+
+Result<Folder::Written> Folder::write(SavedWorld world) {
+    // Another program may have made files here since open().
+    std::error_code error;
+    while (last_ < mostNumber && fs::exists(pathOf(last_ + 1), error)) ++last_;
+    const std::string path = pathOf(last_ + 1);
+    auto file = recording::OutputFile::create(path, false, recording::OutputFile::Appears::WhenClosed);
+    if (!file) return tl::unexpected(file.error());
+    const std::string head = headOf(FileKind::Checkpoint);
+    Position position = positionAfter(head);
+    const WriteBytes bytes = [&](const std::string& more) { return file->write(more); };
+    auto done = bytes(head);
+    if (done) done = checkpoint::write(std::move(world), position, bytes);
+    if (done) done = file->close();
+    if (!done) return tl::unexpected(done.error());
+    ++last_;
+    removeOldest();
+    return Written{path, position.bytes};
+}
+
+void Folder::removeOldest() {
+    const std::vector<std::uint64_t> good = numbers();
+    std::error_code error;
+    for (std::size_t k = 0; k + keep_ < good.size(); ++k)
+        if (!fs::remove(pathOf(good[k]), error))
+            spdlog::warn("{} cannot be removed: {}", pathOf(good[k]), error.message());
+}
+
+bool isCheckpoint(const std::string& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return true;
+    const std::string head = headOf(FileKind::Checkpoint).substr(0, magicBytes);
+    std::string begin(head.size(), '\0');
+    const auto file = InputFile::open(path);
+    return file && file->read(0, begin.data(), begin.size()).value_or(0) == begin.size() && begin == head;
+}
+
+Result<std::string> newestIn(const std::string& path) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) return path;
+    const auto numbers = numbersIn(path, error);
+    if (error) return fail(ErrorKind::Input, path, fmt::format("cannot be read: {}", error.message()));
+    if (numbers.empty())
+        return fail(ErrorKind::Input, path, "is a folder, must be a regular file or a folder with checkpoints");
+    return path + "/" + nameOf(numbers.back());
+}
+
+}  // namespace spherule::checkpoint
