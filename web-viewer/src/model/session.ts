@@ -281,8 +281,14 @@ export class Session {
     if (!this.facts || this.replay) return 0;
     const age = now - this.lastArrival;
     const rests = this.paused || this.change !== undefined; // a long command may stop the world
-    const grace = this.live ? (rests ? Infinity : 5000) : 400;
+    const grace = this.live ? (rests ? Infinity : Math.max(5000, 2 * this.interval)) : 400;
     return Math.min(1, Math.max(0, (age - grace) / 600));
+  }
+
+  /** Time between two states that follow each other at the requested speed (ms). */
+  private get interval(): number {
+    const { step = 0, speed = 0 } = this.settings ?? {};
+    return speed > 0 ? (1000 * (this.timeline ? this.spacing : step)) / speed : 0;
   }
 
   private eventReceived(event: Event): void {
