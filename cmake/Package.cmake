@@ -36,10 +36,7 @@ install(FILES deploy/systemd/sysusers.conf DESTINATION lib/sysusers.d RENAME sph
 install(FILES deploy/systemd/serve.toml DESTINATION /etc/spherule)
 install(FILES README.md DESTINATION share/doc/spherule)
 install(DIRECTORY docs/ DESTINATION share/doc/spherule/docs FILES_MATCHING PATTERN "*.md" PATTERN images EXCLUDE)
-install(DIRECTORY deploy/nginx DESTINATION share/doc/spherule/examples)
-if(EXISTS ${PROJECT_SOURCE_DIR}/deploy/monitoring)
-  install(DIRECTORY deploy/monitoring DESTINATION share/doc/spherule/examples)
-endif()
+install(DIRECTORY deploy/nginx deploy/monitoring DESTINATION share/doc/spherule/examples)
 # Manual pages and others are made by the program that is installed, so they cannot be out of date.
 install(CODE "
   file(REMOVE_RECURSE \"${documents}\")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # package.sh: installs missing packages on Debian 12, builds the program, and writes the Debian package with its service
-# to build/packages/spherule_VERSION_amd64.deb. docs/operations.md#as-a-service-on-debian describes the package.
+# to build/packages/spherule_VERSION-1_ARCHITECTURE.deb. docs/operations.md#as-a-service-on-debian describes the package.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -18,5 +18,7 @@ trap 'rm -rf "$work"' EXIT
     exit 1
 }
 mkdir -p build/packages
-mv "$work"/*.deb build/packages/
-ls build/packages/*.deb
+for package in "$work"/*.deb; do
+    mv "$package" build/packages/
+    echo "build/packages/$(basename "$package")"
+done

@@ -75,7 +75,7 @@ check_format() {
         xargs -0 clang-format --dry-run -Werror
 }
 
-# Tests connect only to this machine, so no proxy is used.
+# Tests connect only to this machine, so no proxy is used. Those that install packages get it as PACKAGE_PROXY.
 run_tests() {
     local chosen=() left_out=() log=$build/tests.log code=0
     [[ -n $long ]] || left_out+=(long)
@@ -86,6 +86,7 @@ run_tests() {
         chosen=(-LE "^($(IFS='|'; echo "${left_out[*]}"))\$")
     fi
     env -u http_proxy -u https_proxy -u all_proxy -u HTTP_PROXY -u HTTPS_PROXY -u ALL_PROXY \
+        PACKAGE_PROXY="${http_proxy:-${HTTP_PROXY:-}}" \
         ctest --test-dir "$build" -j "$jobs" --output-on-failure --no-tests=error "${chosen[@]}" | tee "$log" || code=1
     shares "$log"
     return $code

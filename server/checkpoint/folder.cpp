@@ -1,6 +1,7 @@
 #include "checkpoint/folder.h"
 
 #include <fcntl.h>
+#include <stdio.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -29,6 +30,9 @@ constexpr std::string_view suffix = ".sphc";
 constexpr const char* passedOver = ".bad";  // added to the names of checkpoints that were passed over
 constexpr const char* lockName = "lock";
 constexpr std::uint64_t mostNumber = 1'000'000'000'000;
+constexpr std::size_t blockBytes = 1U << 20U;
+constexpr int mostSetAside = 1000;
+constexpr double megabyte = 1e6;
 
 std::string nameOf(std::uint64_t number) {
     return fmt::format("{}{:08}{}", prefix, number, suffix);
@@ -39,7 +43,7 @@ std::optional<std::uint64_t> numberIn(std::string_view name) {
     if (!name.starts_with(prefix)) return std::nullopt;
     std::uint64_t number = 0;
     std::from_chars(name.data() + prefix.size(), name.data() + name.size(), number);
-    if (number > mostNumber || nameOf(number) != name) return std::nullopt;
+    if (number >= mostNumber || nameOf(number) != name) return std::nullopt;
     return number;
 }
 
@@ -50,6 +54,42 @@ std::vector<std::uint64_t> numbersIn(const std::string& path, std::error_code& e
         if (const auto number = numberIn(entry->path().filename().string())) numbers.push_back(*number);
     std::ranges::sort(numbers);
     return numbers;
+}
+
+// Opens the lock file. Returns -1 and sets errno if it fails. A folder on a file system that has become read-only is
+// still good to go on from.
+int openLock(const std::string& path) {
+    const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock >= 0 || (errno != EROFS && errno != EACCES)) return lock;
+    return ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+}
+
+// Refused if the file cannot be read to its end for another reason than its content.
+Result<void> checkReadable(const std::string& path) {
+    const auto no = [&](int error) {
+        return fail(ErrorKind::Refused, path,
+                    fmt::format("cannot be read: {}; it may be good, and is left alone", std::strerror(error)));
+    };
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file < 0) return errno == ENOENT ? Result<void>() : no(errno);
+    std::vector<char> block(blockBytes);
+    ssize_t got = 0;
+    do got = ::read(file, block.data(), block.size());
+    while (got > 0 || (got < 0 && errno == EINTR));
+    const int error = got < 0 ? errno : 0;
+    ::close(file);
+    return error == 0 || error == EISDIR || error == EAGAIN ? Result<void>() : no(error);
+}
+
+// Renames a checkpoint that is passed over, to a name that is free.
+void setAside(const std::string& path) {
+    int result = -1;
+    for (int k = 1; k <= mostSetAside; ++k) {
+        const std::string name = k == 1 ? path + passedOver : fmt::format("{}{}{}", path, passedOver, k);
+        result = renameat2(AT_FDCWD, path.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE);
+        if (result == 0 || errno != EEXIST) break;
+    }
+    if (result != 0) spdlog::warn("{} cannot be renamed: {}", path, std::strerror(errno));
 }
 
 // Removes files that were not complete when a program was killed.
@@ -87,7 +127,7 @@ Result<Folder> Folder::open(const std::string& path, unsigned keep) {
                     fmt::format("cannot be the folder of checkpoints: {}; choose a folder that can be made and written",
                                 error.message()));
     const std::string lockPath = path + "/" + lockName;
-    const int lock = ::open(lockPath.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int lock = openLock(lockPath);
     if (lock < 0)
         return fail(
             ErrorKind::Input, path,
@@ -112,7 +152,11 @@ Result<Folder> Folder::open(const std::string& path, unsigned keep) {
 }
 
 Folder::Folder(Folder&& other) noexcept
-    : path_(std::move(other.path_)), keep_(other.keep_), lock_(std::exchange(other.lock_, -1)), last_(other.last_) {}
+    : path_(std::move(other.path_)),
+      keep_(other.keep_),
+      lock_(std::exchange(other.lock_, -1)),
+      last_(other.last_),
+      bytes_(other.bytes_) {}
 
 Folder::~Folder() {
     if (lock_ >= 0) ::close(lock_);
@@ -128,17 +172,19 @@ std::string Folder::pathOf(std::uint64_t number) const {
 }
 
 Result<std::optional<std::string>> Folder::useNewest(const Use& use, const std::function<void(const Error&)>& skipped) {
-    for (std::vector<std::uint64_t> all = numbers(); !all.empty(); all.pop_back()) {
+    std::error_code error;
+    std::vector<std::uint64_t> all = numbersIn(path_, error);
+    if (error) return fail(ErrorKind::Refused, path_, fmt::format("cannot be read: {}", error.message()));
+    for (; !all.empty(); all.pop_back()) {
         const std::string path = pathOf(all.back());
         auto world = readCheckpoint(path);
         auto used = world ? use(std::move(*world)) : Result<void>(tl::unexpected(world.error()));
         if (used) return path;
         if (used.error().where.empty()) used.error().where = path;
         if (used.error().kind != ErrorKind::Input) return tl::unexpected(used.error());
+        if (auto readable = checkReadable(path); !readable) return tl::unexpected(readable.error());
         skipped(used.error());
-        std::error_code error;
-        fs::rename(path, path + passedOver, error);
-        if (error) spdlog::warn("{} cannot be renamed: {}", path, error.message());
+        setAside(path);
     }
     return std::nullopt;
 }
@@ -148,6 +194,12 @@ Result<Folder::Written> Folder::write(SavedWorld world) {
     std::error_code error;
     while (last_ < mostNumber && fs::exists(pathOf(last_ + 1), error)) ++last_;
     const std::string path = pathOf(last_ + 1);
+    if (const auto room = fs::space(path_, error); !error && room.available < bytes_)
+        return fail(
+            ErrorKind::Refused, path,
+            fmt::format("cannot be written: the disk has room for {:.1f} MB, the last checkpoint took {:.1f} MB; "
+                        "make room there",
+                        static_cast<double>(room.available) / megabyte, static_cast<double>(bytes_) / megabyte));
     auto file = recording::OutputFile::create(path, false, recording::OutputFile::Appears::WhenClosed);
     if (!file) return tl::unexpected(file.error());
     const std::string head = headOf(FileKind::Checkpoint);
@@ -158,6 +210,7 @@ Result<Folder::Written> Folder::write(SavedWorld world) {
     if (done) done = file->close();
     if (!done) return tl::unexpected(done.error());
     ++last_;
+    bytes_ = position.bytes;
     removeOldest();
     return Written{path, position.bytes};
 }

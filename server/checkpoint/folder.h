@@ -16,8 +16,8 @@ namespace spherule::checkpoint {
 class Folder {
   public:
     // Makes the folder unless it exists, locks it, and removes the files of checkpoints whose writing was interrupted.
-    // `keep`: number of checkpoints, at least 1. Input if the folder cannot be used or read, or if another program uses
-    // it.
+    // A folder that may only be read can be used, but not written. `keep`: number of checkpoints, at least 1. Input if
+    // the folder cannot be made or read, or if another program uses it.
     static Result<Folder> open(const std::string& path, unsigned keep);
     Folder(Folder&& other) noexcept;
     Folder(const Folder&) = delete;
@@ -28,7 +28,7 @@ class Folder {
     // Calls use() with the newest checkpoint that can be read, and then with older ones, until use() succeeds. Passes
     // over checkpoints that are damaged or of another version (Input): renames them, so that nothing removes them, and
     // calls skipped() with the reason. Returns its path; nullopt if there is none. Returns any other error, such as no
-    // memory: the checkpoint may be good.
+    // memory or a file that cannot be read: the checkpoint may be good.
     using Use = std::function<Result<void>(SavedWorld world)>;
     Result<std::optional<std::string>> useNewest(const Use& use, const std::function<void(const Error&)>& skipped);
 
@@ -37,7 +37,8 @@ class Folder {
         std::uint64_t bytes = 0;
     };
     // Writes a checkpoint to the disk. Then removes the oldest ones that are too many. After an error all others are as
-    // before.
+    // before. Refused at once if the disk has less room than the last checkpoint took: filling it up would end other
+    // files, such as the command log.
     Result<Written> write(SavedWorld world);
 
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -52,8 +53,9 @@ class Folder {
 
     std::string path_;
     unsigned keep_;
-    int lock_;                // file descriptor of the lock file
-    std::uint64_t last_ = 0;  // number of the last checkpoint
+    int lock_;                 // file descriptor of the lock file
+    std::uint64_t last_ = 0;   // number of the last checkpoint
+    std::uint64_t bytes_ = 0;  // size of the last checkpoint that was written
 };
 
 // Returns true for a folder, and for a file that begins as a checkpoint does.

@@ -42,14 +42,12 @@ Result<SavedWorld> presentWorld(sim::Simulation& simulation, const v1::StateHead
     return world;
 }
 
-// Begins a log with the present state and its hash.
-Result<std::unique_ptr<LogWriter>> beginning(sim::Simulation& simulation, const v1::StateHead& head,
+// Begins a log with the present state, `world`, and its hash.
+Result<std::unique_ptr<LogWriter>> beginning(sim::Simulation& simulation, SavedWorld world,
                                              std::unique_ptr<recording::ByteSink> sink, std::string name) {
-    auto world = presentWorld(simulation, head);
-    if (!world) return tl::unexpected(world.error());
     auto log = LogWriter::begin(std::move(sink), std::move(name));
     if (!log) return log;
-    (*log)->addWorld(std::move(*world));
+    (*log)->addWorld(std::move(world));
     (*log)->add(hashOf(simulation));
     return log;
 }
@@ -113,7 +111,9 @@ Result<std::unique_ptr<Keeper>> Keeper::open(const Options& options) {
                 "{} holds {} checkpoints of an earlier run, which new ones replace; --resume goes on from them",
                 options.folder, earlier);
     }
-    keeper->postpone(Clock::now());
+    // If the program is killed soon, the next one shall not go on from the earlier run.
+    const bool atOnce = keeper->folder_ && !options.resume && keeper->folder_->count() > 0;
+    if (!atOnce) keeper->postpone(Clock::now());
     return keeper;
 }
 
@@ -179,10 +179,13 @@ Result<void> Keeper::beginLog(sim::Simulation& simulation, const v1::StateHead& 
         const std::string before = std::exchange(options_.log, numbered(options_.log, number));
         spdlog::warn("{} is not the log of this state; a new command log begins in {}", before, options_.log);
     }
+    auto world = presentWorld(simulation, head);  // without it, no file is left behind
+    if (!world) return tl::unexpected(world.error());
     auto file = recording::OutputFile::create(options_.log, options_.replace);
     if (!file) return tl::unexpected(file.error());
     file->persist();
-    auto log = beginning(simulation, head, std::make_unique<recording::OutputFile>(std::move(*file)), options_.log);
+    auto log = beginning(simulation, std::move(*world), std::make_unique<recording::OutputFile>(std::move(*file)),
+                         options_.log);
     if (!log) return tl::unexpected(log.error());
     logs_[inFile] = std::move(*log);
     return {};
@@ -190,7 +193,9 @@ Result<void> Keeper::beginLog(sim::Simulation& simulation, const v1::StateHead& 
 
 Result<void> Keeper::beginLogInRecording(sim::Simulation& simulation, const v1::StateHead& head,
                                          std::unique_ptr<recording::ByteSink> sink) {
-    auto log = beginning(simulation, head, std::move(sink), "the recording");
+    auto world = presentWorld(simulation, head);
+    if (!world) return tl::unexpected(world.error());
+    auto log = beginning(simulation, std::move(*world), std::move(sink), "the recording");
     if (!log) return tl::unexpected(log.error());
     logs_[inRecording] = std::move(*log);
     return {};
@@ -251,7 +256,7 @@ std::vector<Keeper::Outcome> Keeper::takeOutcomes() {
     return outcomes;
 }
 
-bool Keeper::logs() const {
+bool Keeper::anyLogGoesOn() const {
     return std::ranges::any_of(logs_, [](const auto& log) { return log && log->goesOn(); });
 }
 
@@ -280,7 +285,7 @@ void Keeper::logRollback(const Place& at) {
 }
 
 void Keeper::logWorld(const Place& at, sim::Simulation& simulation, const v1::StateHead& head) {
-    if (!logs()) return;
+    if (!anyLogGoesOn()) return;
     v1::LogEntry entry = entryAt(at);
     entry.mutable_world();
     for (const auto& log : logs_) {
@@ -297,7 +302,8 @@ void Keeper::logWorld(const Place& at, sim::Simulation& simulation, const v1::St
 }
 
 void Keeper::logStep(sim::Simulation& simulation) {
-    if (options_.hashEvery > 0 && simulation.steps() % options_.hashEvery == 0 && logs()) add(hashOf(simulation));
+    if (options_.hashEvery > 0 && simulation.steps() % options_.hashEvery == 0 && anyLogGoesOn())
+        add(hashOf(simulation));
 }
 
 void Keeper::endLog(sim::Simulation& simulation) {

@@ -103,7 +103,7 @@ class Keeper {
   private:
     explicit Keeper(Options options) : options_(std::move(options)) {}
     [[nodiscard]] Clock::duration every() const { return std::chrono::duration_cast<Clock::duration>(options_.every); }
-    [[nodiscard]] bool logs() const;
+    [[nodiscard]] bool anyLogGoesOn() const;
     void add(const v1::LogEntry& entry);
     bool goOnWithLog(const v1::StateHead& resumed);
     static void end(LogWriter* log, sim::Simulation& simulation);

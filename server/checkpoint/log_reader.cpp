@@ -5,8 +5,17 @@
 #include <utility>
 
 #include "core/heartbeat.h"
+#include "core/memory.h"
 
 namespace spherule::checkpoint {
+
+namespace {
+
+// A parsed message takes up to 50 bytes for each of its bytes. Entries that are not large take little memory anyway.
+constexpr std::size_t large = 1U << 20U;
+constexpr std::size_t perByte = 50;
+
+}  // namespace
 
 Result<LogReader> LogReader::open(const std::string& path) {
     auto records = RecordReader::open(path, FileKind::CommandLog);
@@ -33,6 +42,9 @@ Result<std::optional<v1::LogEntry>> LogReader::next() {
     const auto record = records_.next();
     if (!record) return tl::unexpected(record.error());
     if (!*record) return std::nullopt;
+    const std::size_t bytes = (*record)->payload.size();
+    auto claim = memory::Claim::make(records_.path(), "an entry of a command log", bytes > large ? perByte * bytes : 0);
+    if (!claim) return tl::unexpected(claim.error());
     v1::LogEntry entry;
     if ((*record)->kind != Kind::Entry || !entry.ParseFromString((*record)->payload) ||
         entry.kind_case() == v1::LogEntry::KIND_NOT_SET)

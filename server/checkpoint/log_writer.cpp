@@ -31,9 +31,10 @@ LogWriter::~LogWriter() {
 
 // Ends the log after an error. Called by the thread.
 void LogWriter::drop(const Error& error) {
+    const bool reported = sink_->ended();
     sink_.reset();
     const std::lock_guard lock(mutex_);
-    failure_ = error;
+    if (!reported) failure_ = error;
 }
 
 // Lets the thread write, unless the log has ended.

@@ -49,7 +49,6 @@ class LogWriter {
     void endWith(const Error& error);
 
     [[nodiscard]] bool goesOn() const { return goesOn_; }
-    [[nodiscard]] const std::string& name() const { return name_; }
     // Why the log has ended early; nullopt: it has not, or this was returned before.
     std::optional<Error> takeFailure();
     void wait() { thread_.wait(); }

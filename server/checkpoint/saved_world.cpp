@@ -25,7 +25,8 @@ using recording::numberAt;
 constexpr std::size_t chunkBytes = 1U << 24U;  // of data in a record, before it is compressed
 constexpr std::size_t partHeadBytes = 8;       // number of the part, size of the data
 constexpr std::uint64_t mostStateBytes = std::uint64_t{1} << 44U;
-constexpr int level = 1;  // of zstd: fast
+constexpr std::size_t mostHeadBytes = 1U << 20U;  // parsed, a message takes a multiple of them
+constexpr int level = 1;                          // of zstd: fast
 
 struct FreeContext {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
@@ -111,7 +112,8 @@ Result<v1::StateHead> readHead(RecordReader& reader) {
     if (!record) return tl::unexpected(record.error());
     if (!*record) return reader.bad("is missing: the file is cut off");
     v1::StateHead head;
-    if ((*record)->kind != Kind::State || !head.ParseFromString((*record)->payload))
+    const std::string& payload = (*record)->payload;
+    if ((*record)->kind != Kind::State || payload.size() > mostHeadBytes || !head.ParseFromString(payload))
         return reader.bad("before it is not the head of a state");
     return head;
 }

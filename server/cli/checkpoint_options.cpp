@@ -6,8 +6,7 @@
 
 namespace spherule::cli {
 
-void addCheckpoints(CLI::App& command, checkpoint::Options& options, std::uint64_t hashEvery) {
-    options.hashEvery = hashEvery;
+void addCheckpoints(CLI::App& command, checkpoint::Options& options) {
     command.add_option("--checkpoints", options.folder, "write checkpoints to this folder; empty: none");
     command
         .add_option_function<std::string>(

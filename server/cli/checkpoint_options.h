@@ -6,7 +6,7 @@
 
 namespace spherule::cli {
 
-// Adds the options for checkpoints and the command log. `hashEvery`: the default of --hash-every (steps).
-void addCheckpoints(CLI::App& command, checkpoint::Options& options, std::uint64_t hashEvery);
+// Adds the options for checkpoints and the command log.
+void addCheckpoints(CLI::App& command, checkpoint::Options& options);
 
 }  // namespace spherule::cli

@@ -123,6 +123,9 @@ Result<std::optional<Difference>> firstDifference(const CompareOptions& options)
         if (!one->now || !other->now || !same(*one->now, *other->now)) return difference;
         world = one->now->has_world();
         if (one->now->has_hash()) difference.lastEqualHash = one->now->step();
+        // The steps are counted anew.
+        if (world || (one->now->has_carried() && one->now->carried().command().has_reset()))
+            difference.lastEqualHash.reset();
     }
 }
 
@@ -172,7 +175,7 @@ Result<int> compare(const CompareOptions& options) {
     if (!difference.ofWorlds && difference.ofHashes()) {
         const std::uint64_t step = std::max(difference.one->step(), difference.other->step());
         if (!difference.lastEqualHash)
-            fmt::print("the states differ from the beginning, step {}\n", step);
+            fmt::print("the states differ from the beginning of the world on, at step {}\n", step);
         else if (*difference.lastEqualHash + 1 == step)
             fmt::print("the states differ from step {} on\n", step);
         else

@@ -148,6 +148,14 @@ Result<Written> write(recording::Recording& recording, const Range& range, bool 
     return written;
 }
 
+// Refuses to write over the file that is exported.
+Result<void> checkOutput(const std::string& file, const std::string& out) {
+    std::error_code missing;  // set if the output file does not exist yet
+    if (std::filesystem::equivalent(file, out, missing))
+        return fail(ErrorKind::Input, out, "is the exported file itself; choose another name");
+    return {};
+}
+
 Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt) {
     const auto range = rangeOf(options);
     if (!range) return tl::unexpected(range.error());
@@ -159,9 +167,7 @@ Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt)
         return fail(ErrorKind::Input, options.file,
                     fmt::format("has nothing of that time: it goes from {:g} s to {:g} s", recording->begin(),
                                 recording->end()));
-    std::error_code missing;  // set if the output file does not exist yet
-    if (std::filesystem::equivalent(options.file, options.out, missing))
-        return fail(ErrorKind::Input, options.out, "is the recording itself; choose another name");
+    if (auto other = checkOutput(options.file, options.out); !other) return other;
     interrupt.finishFirst();
     auto exporter = exporterFor(options);
     if (!exporter) return tl::unexpected(exporter.error());
@@ -186,12 +192,17 @@ Result<void> exportCheckpoint(const ExportOptions& options) {
                     "is a checkpoint, with one state: leave out --every, --from, --to and --unwrap");
     const auto path = checkpoint::newestIn(options.file);
     if (!path) return tl::unexpected(path.error());
+    if (auto other = checkOutput(*path, options.out); !other) return other;
     const auto world = checkpoint::readCheckpoint(*path);
     if (!world) return tl::unexpected(world.error());
     auto device = compute::openDevice("cpu:1");
     if (!device) return tl::unexpected(device.error());
     const auto simulation = sim::Simulation::restore(**device, world->state);
-    if (!simulation) return fail(ErrorKind::Input, *path, simulation.error().message);
+    if (!simulation) {
+        Error error = simulation.error();
+        error.where = *path;
+        return tl::unexpected(std::move(error));
+    }
     const scene::Scene& scene = (*simulation)->scene();
     const sim::State state = (*simulation)->snapshot();
     if (state.count() == 0) return fail(ErrorKind::Input, *path, "has no spheres");

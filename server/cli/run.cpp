@@ -376,7 +376,7 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--script", options->script,
                         "carry out timed commands: lines such as 1.5s set gravity 0 0 -1.6");
     addRunRecording(*command, options->record);
-    addCheckpoints(*command, options->checkpoints, 60);
+    addCheckpoints(*command, options->checkpoints);
     addWatchdog(*command, options->watchdog);
     command->add_flag("--json", options->json, "print JSON, one line per report");
     command->footer(exitCodesText);

@@ -37,6 +37,8 @@ void RunFiles::stepped(sim::Simulation& simulation) const {
 void RunFiles::finish(sim::Simulation& simulation, const Result<void>& run) const {
     keeper.wait();
     report();
+    if (run && keeper.hasFolder() && simulation.midStep())
+        spdlog::warn("the run was ended within a step: the last checkpoint is the one before");
     if (run && keeper.hasFolder() && !simulation.midStep())
         if (auto begun = keeper.save(simulation, head(), checkpoint::Keeper::Clock::now()); !begun) warn(begun.error());
     if (run || run.error().kind != ErrorKind::DeviceLost) {

@@ -65,7 +65,7 @@ void addServe(CLI::App& app, int& exitCode) {
     options->scene.addTo(*command);
     options->serving.addTo(*command);
     addLiveRecording(*command, options->recordings);
-    addCheckpoints(*command, options->checkpoints, 60);
+    addCheckpoints(*command, options->checkpoints);
     command->add_option(
         "--quality-table", options->table,
         "a measure.json of `spherule measure`, with errors and costs for the dial [a table in the program]");

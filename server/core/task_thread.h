@@ -1,7 +1,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstddef>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -41,11 +40,6 @@ class TaskThread {
         tasks_.push_back(std::move(task));
         changed_.notify_all();
     }
-    // Returns the number of tasks that are not done.
-    [[nodiscard]] std::size_t left() const {
-        const std::lock_guard lock(mutex_);
-        return tasks_.size();
-    }
     // Waits until all tasks are done.
     void wait() {
         std::unique_lock lock(mutex_);
@@ -66,7 +60,7 @@ class TaskThread {
         }
     }
 
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     std::condition_variable_any changed_;
     std::condition_variable done_;
     std::deque<std::function<void()>> tasks_;

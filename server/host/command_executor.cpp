@@ -156,9 +156,9 @@ void CommandExecutor::checkpointBegun() {
     checkpointsBegun_ = std::exchange(checkpointsAsked_, {});
 }
 
-void CommandExecutor::answerCheckpoints(const Result<std::string>& file) {
+void CommandExecutor::answerCheckpoints(std::uint64_t step, const Result<std::string>& file) {
     for (const Request& request : std::exchange(checkpointsBegun_, {})) {
-        Result<sim::Applied> applied = host_.applied();
+        Result<sim::Applied> applied = sim::Applied{.step = step};
         if (file)
             applied->file = *file;
         else

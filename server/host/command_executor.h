@@ -73,7 +73,7 @@ class CommandExecutor : private ProducerCommands {
     // The checkpoint for the commands that wait has begun.
     void checkpointBegun();
     // Answers the commands whose checkpoint has begun. `file`: its name.
-    void answerCheckpoints(const Result<std::string>& file);
+    void answerCheckpoints(std::uint64_t step, const Result<std::string>& file);
     // Refuses all commands that have no answer yet, except those in the queue of requests.
     void refuseAll(const std::string& reason, Cause cause);
 

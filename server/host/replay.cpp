@@ -48,7 +48,7 @@ Result<void> Replay::begin() {
     auto world = log_.world();
     if (!world) return tl::unexpected(world.error());
     auto made = sim::Simulation::restore(device_, world->state);
-    if (!made) return bad(made.error().text());
+    if (!made) return made.error().kind == ErrorKind::Input ? bad(made.error().text()) : tl::unexpected(made.error());
     simulation_ = std::move(*made);
     head_ = std::move(world->head);
     return {};
@@ -124,6 +124,9 @@ Result<void> Replay::carryOut(const v1::Carried& carried) {
     if (!command) return bad(fmt::format("has {}, which is no command for a simulation", nameOf(*next_)));
     if (!*command) return bad(fmt::format("has {}, which is wrong: {}", nameOf(*next_), command->error().text()));
     const auto applied = simulation_->apply(**command);
+    const bool atFault = !applied && applied.error().cause != Cause::NoMemory &&
+                         (applied.error().kind == ErrorKind::Input || applied.error().kind == ErrorKind::Refused);
+    if (!applied && !atFault) return tl::unexpected(applied.error());
     if (!applied)
         return bad(fmt::format("has {} at step {}, which is refused now: {}", nameOf(*next_), next_->step(),
                                applied.error().text()));

@@ -16,12 +16,13 @@ namespace spherule::host {
 // by the thread that owns the device.
 class Replay {
   public:
-    // The device must outlive the replay. Input if the log cannot be read, or is of another version of the program.
+    // The device must outlive the replay. Input if the log cannot be read, or is of another format. Any other error
+    // is of the device, or says that there is no memory.
     static Result<std::unique_ptr<Replay>> open(const std::string& path, compute::Device& device);
 
     // Makes the changes that are next, and does substeps to the end of the step. Returns false at the end of the log:
     // after its last entry, there are no more steps. Input if the log is damaged, or if its entries do not fit the
-    // simulation.
+    // simulation. Any other error is of the device, or says that there is no memory.
     Result<bool> step();
 
     // A hash in the log that the state does not have.

@@ -36,6 +36,7 @@ Result<std::unique_ptr<SimulationHost>> SimulationHost::open(const std::string& 
         host->adopt(std::move(resumed->simulation));
         if (checkSpeed(resumed->head.speed())) host->scheduler_.setSpeed(resumed->head.speed());
         host->paused_ = resumed->head.paused();
+        host->script_ = resumed->head.script();
         return host;
     }
     const std::string kind = host->device_->info().kind;
@@ -52,6 +53,7 @@ v1::StateHead SimulationHost::stateHead() const {
     head.set_renderer(device_->info().renderer);
     head.set_speed(scheduler_.speed());
     head.set_paused(paused_);
+    head.set_script(script_);
     return head;
 }
 
@@ -154,6 +156,7 @@ std::optional<Result<sim::Applied>> SimulationHost::advanceChange(Clock::duratio
 sim::Applied SimulationHost::finishChange() {
     Change change = std::move(*change_);
     change_.reset();
+    if (change.kind != Change::Kind::Other) script_ = 0;
     if (change.kind == Change::Kind::Load) {
         adopt(sim::Simulation::from(std::move(change.preparation)));
         return applied();

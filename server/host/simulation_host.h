@@ -100,6 +100,7 @@ class SimulationHost {
     std::optional<Change> change_;
     StepScheduler scheduler_;
     bool paused_ = false;
+    std::uint64_t script_ = 0;  // commands of the script of the run from which this world comes
     std::uint32_t pendingSteps_ = 0;
     std::uint32_t epoch_ = 0;
     std::uint32_t generation_ = 0;

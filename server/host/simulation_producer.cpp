@@ -50,7 +50,7 @@ SimulationProducer::SimulationProducer(std::unique_ptr<SimulationHost> host, con
 Result<void> SimulationProducer::run(const std::stop_token& stop) {
     if (auto done = resume(); !done) return done;
     publishChanges();
-    savedVersion_ = host_.resumed() ? version_ : version_ + 1;
+    if (host_.resumed()) savedVersion_ = version_;
     if (recorder_.startsAtOnce())
         if (auto room = reserveEncoder(); !room) return room;
     if (auto done = recorder_.startFromOptions(); !done) return done;
@@ -61,6 +61,8 @@ Result<void> SimulationProducer::run(const std::stop_token& stop) {
         keeper_->endLogInRecording(host_.simulation());
     else
         keeper_->dropLogInRecording();
+    finishing_ = done && keeper_->hasFolder();
+    if (finishing_) board_.update([](ServerStatus& current) { current.checkpoints->underWay = true; });
     const Result<void> finished = finishRecording();
     if (done) finishState();
     return done ? finished : done;

@@ -14,8 +14,8 @@ namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto shortestPause = 1s;    // between checkpoints that commands ask for
-constexpr auto longestLastStep = 5s;  // for the rest of the step at the end
+constexpr auto shortestPause = 1s;     // between checkpoints that commands ask for
+constexpr auto longestLastStep = 60s;  // for the rest of the step at the end
 constexpr double megabyte = 1e6;
 
 }  // namespace
@@ -86,7 +86,7 @@ void SimulationProducer::saveState(Clock::time_point now) {
     }
     notify(v1::Event::WARNING, fmt::format("no checkpoint could be written: {}", begun.error().text()));
     board_.update([](ServerStatus& current) { ++current.checkpoints->failed; });
-    commands_.answerCheckpoints(tl::unexpected(begun.error()));
+    commands_.answerCheckpoints(host_.simulation().steps(), tl::unexpected(begun.error()));
 }
 
 void SimulationProducer::reportCheckpoints() {
@@ -95,29 +95,28 @@ void SimulationProducer::reportCheckpoints() {
     for (const checkpoint::Keeper::Outcome& outcome : keeper_->takeOutcomes()) {
         board_.update([&](ServerStatus& current) {
             ServerStatus::Checkpoints& checkpoints = *current.checkpoints;
-            checkpoints.underWay = false;
+            checkpoints.underWay = finishing_;
             ++(outcome.written ? checkpoints.written : checkpoints.failed);
             if (!outcome.written) return;
             checkpoints.bytes = outcome.written->bytes;
             checkpoints.safeAt = savedAt_;
         });
         if (!outcome.written) {
-            savedVersion_ = ~std::uint64_t{0};
+            savedVersion_ = notSaved;
             Error error = outcome.written.error();
             notify(v1::Event::WARNING, fmt::format("no checkpoint could be written: {}", error.text()));
             error.kind = ErrorKind::Refused;
-            commands_.answerCheckpoints(tl::unexpected(std::move(error)));
+            commands_.answerCheckpoints(outcome.step, tl::unexpected(std::move(error)));
             continue;
         }
         spdlog::info("checkpoint {} of step {}: {:.1f} MB in {:.2f} s", outcome.written->path, outcome.step,
                      static_cast<double>(outcome.written->bytes) / megabyte, outcome.seconds);
-        commands_.answerCheckpoints(std::filesystem::path(outcome.written->path).filename().string());
+        commands_.answerCheckpoints(outcome.step, std::filesystem::path(outcome.written->path).filename().string());
     }
 }
 
 // Ends the step under way, writes the last checkpoint and the end of the log, and waits for the disk.
 void SimulationProducer::finishState() {
-    if (keeper_->hasFolder()) board_.update([](ServerStatus& current) { current.checkpoints->underWay = true; });
     const auto end = Clock::now() + longestLastStep;
     sim::Simulation& simulation = host_.simulation();
     while (simulation.midStep() && Clock::now() < end)

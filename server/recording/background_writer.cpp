@@ -58,13 +58,14 @@ bool BackgroundWriter::add(Kind kind, double time, codec::SharedMessage message)
     return true;
 }
 
-void BackgroundWriter::addLog(std::string_view bytes) {
+bool BackgroundWriter::addLog(std::string_view bytes) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return progress_.ended || !logging_ || waitingBytes_ <= mostLog; });
-    if (progress_.ended || !logging_) return;
+    if (progress_.ended || !logging_) return false;
     waitingBytes_ += bytes.size();
     waiting_.push_back({.kind = Kind::Log, .time = 0, .message = nullptr, .log = std::string(bytes)});
     changed_.notify_all();
+    return true;
 }
 
 void BackgroundWriter::beginLog() {

@@ -33,8 +33,8 @@ class BackgroundWriter {
     [[nodiscard]] bool add(Kind kind, double time, codec::SharedMessage message);
     // Queues bytes of a command log. May be called by any thread, which waits while the queue is full. After
     // beginLog() the recording does not end before endLog(), except by an error or its limit: then the bytes are
-    // dropped.
-    void addLog(std::string_view bytes);
+    // dropped, and it returns false.
+    bool addLog(std::string_view bytes);
     void beginLog();
     void endLog();
     // Ends the recording after the queued records.

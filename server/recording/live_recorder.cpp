@@ -41,11 +41,12 @@ class LogSink : public ByteSink {
     LogSink& operator=(const LogSink&) = delete;
     ~LogSink() override { writer_->endLog(); }
 
-    // The recording reports errors.
     Result<void> write(std::string_view bytes) override {
-        writer_->addLog(bytes);
-        return {};
+        if (writer_->addLog(bytes)) return {};
+        ended_ = true;
+        return fail(ErrorKind::Refused, "", "the recording has ended");
     }
+    [[nodiscard]] bool ended() const override { return ended_; }  // the recording reports why
     Result<void> close() override {
         writer_->endLog();
         return {};
@@ -53,6 +54,7 @@ class LogSink : public ByteSink {
 
   private:
     std::shared_ptr<BackgroundWriter> writer_;
+    bool ended_ = false;
 };
 
 }  // namespace

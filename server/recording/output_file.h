@@ -21,6 +21,8 @@ class ByteSink {
     virtual Result<void> flush() { return {}; }  // to the operating system
     virtual Result<void> sync() { return {}; }   // to the disk
     virtual Result<void> close() { return {}; }  // nothing follows
+    // True if nothing more is written because of an error that its owner reports.
+    [[nodiscard]] virtual bool ended() const { return false; }
 };
 
 // A file that is written sequentially through a buffer. Used by one thread. Errors: Input if it cannot be opened;

@@ -27,6 +27,31 @@ bool sameSpheres(const std::vector<scene::Sphere>& one, const std::vector<scene:
            (one.empty() || std::memcmp(one.data(), other.data(), one.size() * sizeof(scene::Sphere)) == 0);
 }
 
+// Returns true if each sphere of the population has one slot, and a material.
+bool haveSlots(const std::vector<Pipeline::SavedArray>& arrays, const Population& population, std::size_t materials) {
+    const auto saved = std::ranges::find(arrays, Array::IdAndMaterial, &Pipeline::SavedArray::array);
+    std::vector<std::uint32_t> words(population.count());
+    if (saved == arrays.end() || saved->bytes.size() < words.size() * sizeof(std::uint32_t)) return words.empty();
+    if (!words.empty()) std::memcpy(words.data(), saved->bytes.data(), words.size() * sizeof(std::uint32_t));
+    std::vector<bool> missing(population.handles());
+    for (std::uint32_t rank = 0; rank < population.count(); ++rank) missing[population.handleAt(rank)] = true;
+    return std::ranges::all_of(words, [&](std::uint32_t word) {
+        const std::uint32_t handle = word & Pipeline::idMask;
+        const bool fits = handle < missing.size() && missing[handle] && (word >> Pipeline::idBits) < materials;
+        if (fits) missing[handle] = false;
+        return fits;
+    });
+}
+
+// Bytes for writing the meshes of a scene: a mesh is copied twice while its bytes grow.
+std::uint64_t meshBytes(const scene::Scene& scene) {
+    constexpr std::uint64_t perTriangle = 3 * 128;
+    std::uint64_t bytes = 0;
+    for (const scene::Obstacle& one : scene.obstacles)
+        if (const auto mesh = one.shape->mesh()) bytes += mesh->corners.size() * perTriangle;
+    return bytes;
+}
+
 }  // namespace
 
 template <class Archive>
@@ -93,7 +118,8 @@ Result<SavedState> Simulation::save() {
                     "the state of cpu-double cannot be saved: copies of it are rounded to float");
     if (midStep()) return fail(ErrorKind::Refused, "", "a step is under way; save the state when it has ended");
     SavedState saved;
-    const std::uint64_t host = (3 * std::uint64_t{count()} + initial_.spheres.size()) * sizeof(scene::Sphere);
+    const std::uint64_t host = (3 * std::uint64_t{count()} + initial_.spheres.size()) * sizeof(scene::Sphere) +
+                               meshBytes(scene_) + meshBytes(initial_);
     auto claim = memory::Claim::make("", "a copy of the state", plan().bytes() + host);
     if (!claim) return tl::unexpected(claim.error());
     saved.claim = std::move(*claim);
@@ -122,7 +148,11 @@ Result<std::unique_ptr<Simulation>> Simulation::restore(compute::Device& device,
                        numbers.room >= population.handles() && numbers.room <= Pipeline::mostHandles &&
                        made->flows_.emission.emitters() == scene.emitters.size() &&
                        made->flows_.sinks.size() == scene.sinks.size() && made->substeps_ > 0 &&
-                       made->substeps_ <= scene::maxSubsteps;
+                       made->substeps_ <= scene::maxSubsteps &&
+                       (!made->lastFiniteSpheres_ ||
+                        (made->lastFiniteSpheres_->population.isWhole() &&
+                         made->lastFiniteSpheres_->population.count() == made->lastFiniteSpheres_->spheres.size())) &&
+                       haveSlots(saved.arrays, population, scene.materials.size());
     if (!whole) return notAState("its parts do not fit each other");
 
     Plan plan = planOf(scene, made->radii_, numbers);
@@ -140,7 +170,9 @@ Result<std::unique_ptr<Simulation>> Simulation::restore(compute::Device& device,
     }
     if (!scene.emitters.empty())
         if (auto births = pipeline.makeBirths(); !births) return tl::unexpected(births.error());
-    if (auto filled = pipeline.restore(saved.arrays, scene); !filled) return notAState(filled.error().message);
+    if (auto filled = pipeline.restore(saved.arrays, scene); !filled)
+        return filled.error().kind == ErrorKind::Input ? notAState(filled.error().message)
+                                                       : tl::unexpected(filled.error());
     made->obstacleRows_.emplace(scene, made->plan().meshes.get());
     made->drives_.emplace(scene, made->plan());
     loader(*made->drives_);

@@ -24,6 +24,9 @@ def milliseconds(path, name):
 
 VERSION = found("CMakeLists.txt", r"project\(spherule VERSION (\S+)")
 DRAIN_MS = milliseconds("server/net/server.h", "drainTimeout")
+LAST_CHECKPOINT_S = int(found("server/host/host.cpp", r"longestWaitForCheckpoint = (\d+)s"))
+END_S = int(found("server/host/host.cpp", r"longestWaitForEnd = (\d+)s"))
+STOP_S = DRAIN_MS / 1000 + END_S + LAST_CHECKPOINT_S  # the longest time that a server with checkpoints takes to end
 IDLE_MS = milliseconds("server/net/server.h", "idleTimeout")
 
 

@@ -118,7 +118,7 @@ class Installation(unittest.TestCase):
         self.done(self.root.call("install", "-d", "-o", "spherule", *(f"/{folder}" for folder in STATE)))
         script = f"""cd /var/lib/spherule
             setpriv --reuid spherule --regid spherule --init-groups --no-new-privs --bounding-set -all {command} &
-            for attempt in $(seq 100); do spherule health && break; sleep 0.1; done
+            for attempt in $(seq 600); do spherule health && break; sleep 0.1; done
             kill $!; wait $!"""
         said = self.done(self.root.call("sh", "-c", script))
         self.assertEqual(json.loads(re.findall(r"^\{.*\}$", said, re.MULTILINE)[-1])["device"], "cpu", said)

@@ -8,7 +8,7 @@ import unittest
 import yaml
 from kubernetes import client
 
-from facts import DRAIN_MS, ROOT, VERSION, Dockerfile, read
+from facts import ROOT, STOP_S, VERSION, Dockerfile, read
 
 
 def understood(manifest):
@@ -97,10 +97,12 @@ class Overlay:
         self.assertIn("secret", at["/run/secrets"])
 
     def test_it_has_time_to_end_and_room_to_record(self):
-        self.assertGreater(self.spec["terminationGracePeriodSeconds"], 2 * DRAIN_MS / 1000)
+        self.assertIn("SPHERULE_CHECKPOINTS", self.environment)
+        self.assertGreater(self.spec["terminationGracePeriodSeconds"], STOP_S)
         limit = int(self.environment["SPHERULE_RECORDINGS_LIMIT"].removesuffix("GiB"))
         storage = self.made["PersistentVolumeClaim"]["spec"]["resources"]["requests"]["storage"]
-        self.assertLess(limit, int(storage.removesuffix("Gi")))
+        spheres = 4_000_000  # more than the limit of memory allows
+        self.assertGreaterEqual(int(storage.removesuffix("Gi")), limit + 4 * 260 * spheres / 2 ** 30)
 
 
 class Gpu(Overlay, unittest.TestCase):

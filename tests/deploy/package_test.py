@@ -75,8 +75,8 @@ class Package(Made):
         listed = subprocess.run(["dpkg-deb", "--contents", self.package], capture_output=True, text=True, check=True).stdout
         self.assertEqual({line.split()[1] for line in listed.splitlines()}, {"root/root"})
         for folder in ("nginx", "monitoring"):
-            self.assertEqual((self.root / "usr/share/doc/spherule/examples" / folder).is_dir(),
-                             (ROOT / "deploy" / folder).is_dir())
+            packed, source = self.root / "usr/share/doc/spherule/examples" / folder, ROOT / "deploy" / folder
+            self.assertEqual({path.name for path in packed.iterdir()}, {path.name for path in source.iterdir()})
 
     def test_it_depends_on_the_libraries_of_the_program_and_has_settings_as_conffile(self):
         depends = {one.split()[0] for one in re.split(r"[,|] *", packing.field(self.package, "Depends"))}

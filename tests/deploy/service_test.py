@@ -9,13 +9,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from facts import DRAIN_MS, ROOT, found, read
+from facts import ROOT, STOP_S, found, read
 
 BINARY = os.path.abspath(sys.argv.pop())
 UNIT = "deploy/systemd/spherule.service"
 SETTINGS = ROOT / "deploy/systemd/serve.toml"
 MOST_EXPOSED = 2.0  # of 10
-LAST_CHECKPOINT = 120  # s
 
 
 def call(*command):
@@ -59,7 +58,7 @@ class Unit(unittest.TestCase):
         self.assertEqual(set(codes.values()) - never - others, {codes["exitFault"], codes["exitDeviceLost"]})
 
     def test_it_has_time_to_end(self):
-        self.assertGreater(int(value("TimeoutStopSec").removesuffix("s")), 2 * DRAIN_MS / 1000 + LAST_CHECKPOINT)
+        self.assertGreater(int(value("TimeoutStopSec").removesuffix("s")), STOP_S)
 
     def test_its_user_is_made_with_the_groups_of_gpus(self):
         with tempfile.TemporaryDirectory() as folder:

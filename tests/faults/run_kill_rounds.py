@@ -5,15 +5,15 @@ In each round viewers watch, a controller sends commands at random, and a record
 `spherule replay` carries out the command log of all rounds without any disturbance. Its hashes are those of the server
 only if each round went on with the right bits.
 """
+import glob
 import json
 import os
 import random
-import re
 import sys
 import tempfile
 import time
 
-from program import runner
+from program import runner, wait_for
 from serving import Server
 from viewer import Controller, Viewer
 
@@ -29,12 +29,15 @@ def serve(folder, *more):
                   f"{EVERY}s", "--resume", "--log", folder + "/commands.sphl", "--hash-every", "5", "--auto", "30ms", *more)
 
 
-def one_round(number, folder, chance):
-    """Returns how many steps the server had done, the step from which it went on, and its recording."""
+def one_round(number, folder, chance, safe):
+    """Returns how many steps the server had done, the step of its last checkpoint on the disk, and its recording. `safe`:
+    the step of the last checkpoint of the round before."""
     recording = os.path.join(folder, f"round-{number}.sph")
     with serve(folder, "--record", recording) as server:
         controller = Controller(server.port)
         viewers = [Viewer(server.port, rate=rate) for rate in (60, 5)]
+        if number == 0:  # there is a checkpoint from which the next round can go on
+            wait_for(lambda: server.metrics()["spherule_checkpoints_total", ""] > 0)
         end = time.monotonic() + chance.uniform(0.3, 3)
         while time.monotonic() < end:
             controller.command(chance)
@@ -42,13 +45,12 @@ def one_round(number, folder, chance):
         steps = server.metrics()["spherule_steps", ""]
         server.end(kill=True)
         del viewers
-    said = "".join(server.greeting) + server.said
-    found = re.search(r"goes on from (\S+) with the scene .*, at step (\d+)", said)
-    if number > 0 and not found:
-        raise AssertionError(f"round {number} did not go on:\n{said}")
-    if "passed over" in said:
-        raise AssertionError(f"round {number} passed over a checkpoint:\n{said}")
-    return steps, int(found.group(2)) if found else 0, recording
+    began = server.went_on_from()
+    if number > 0 and (began is None or began < safe):
+        raise AssertionError(f"round {number} went on from step {began}, but step {safe} was on the disk:\n{server.output}")
+    if "passed over" in server.output:
+        raise AssertionError(f"round {number} passed over a checkpoint:\n{server.output}")
+    return steps, server.last_checkpoint(), recording
 
 
 def check_recording(path):
@@ -71,13 +73,13 @@ def check_recording(path):
 def main():
     chance = random.Random(SEED)
     with tempfile.TemporaryDirectory() as folder:
-        readable = 0
+        readable = safe = 0
         for number in range(ROUNDS):
-            steps, began, recording = one_round(number, folder, chance)
+            steps, safe, recording = one_round(number, folder, chance, safe)
             readable += check_recording(recording) > 0
             if number % 10 == 9:
-                print(f"{number + 1} rounds: from step {began} to about {steps:.0f}; {readable} recordings have frames",
-                      flush=True)
+                print(f"{number + 1} rounds: about {steps:.0f} steps, {safe} of them in a checkpoint; {readable} recordings "
+                      "have frames", flush=True)
         with serve(folder) as server:  # ends in order, and so does its log
             if server.end() != 0:
                 raise AssertionError(server.said)
@@ -85,6 +87,12 @@ def main():
         if done.returncode != 0:
             raise AssertionError(f"the replay differs: {done.stdout}{done.stderr}")
         report = json.loads(done.stdout)
+        if not (report["complete"] and report["same"] and report["hashes"] > ROUNDS and report["step"] >= safe):
+            raise AssertionError(f"the log is not that of all rounds: {report}")
+        if glob.glob(folder + "/commands-*.sphl"):
+            raise AssertionError("a round did not go on with the log")
+        if readable == 0:
+            raise AssertionError("no recording has frames")
         size = os.path.getsize(folder + "/commands.sphl")
     print(f"{ROUNDS} rounds of SIGKILL: each went on; replay of {report['steps']} steps with {report['commands']} "
           f"commands and {report['decisions']} decisions: {report['hashes']} hashes are equal; "

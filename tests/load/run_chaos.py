@@ -20,7 +20,7 @@ import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support/py"))
 from attackers import Commander, Garbage, Guesser, Nonsense, Oversize, Slow, Stalled, Storm, Stranger  # noqa: E402
-from chaos import World  # noqa: E402
+from chaos import STEPS_PER_SECOND, World  # noqa: E402
 import watched  # noqa: E402
 
 ATTACKS = {"stalled readers, slow requests": (Stalled, Slow), "reconnect storms, floods of commands": (Storm, Commander),
@@ -95,6 +95,7 @@ def disturbances(world, seconds):
         world.killed(chance.uniform(0, 3 * world.every))
         kills += 1
     lost = world.end()
+    world.check(lost <= (world.every + 2) * STEPS_PER_SECOND, f"a life lost {lost:.0f} steps")
     rows.append(["SIGKILL", f"{kills} times; the server went on each time, and lost at most {lost:.0f} steps"])
     watched.table(["disturbance", "outcome"], rows)
 

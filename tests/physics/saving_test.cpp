@@ -303,7 +303,23 @@ TEST(SavedStates, AreRefusedWithinAStep) {
     EXPECT_EQ(simulation->save().error().kind, ErrorKind::Refused);
 }
 
-// Values of the same type that are wrong are not found: a checksum of the file has to do that.
+// Other values of the same type that are wrong are not found: a checksum of the file has to do that.
+TEST(SavedStates, AreRefusedIfASphereHasNoSlotOrNoMaterial) {
+    const auto simulation = simulate(reduced(named("hopper"), 200), oneThread());
+    ASSERT_TRUE(simulation->step());
+    for (const std::uint32_t changed : {0xffU << 24U, 0xffffffU, 1U}) {
+        sim::SavedState saved = simulation->save().value();
+        const auto words =
+            std::ranges::find(saved.arrays, sim::Array::IdAndMaterial, &sim::Pipeline::SavedArray::array);
+        ASSERT_NE(words, saved.arrays.end());
+        std::uint32_t word = 0;
+        std::memcpy(&word, words->bytes.data(), sizeof word);
+        word ^= changed;
+        std::memcpy(words->bytes.data(), &word, sizeof word);
+        EXPECT_FALSE(sim::Simulation::restore(oneThread(), saved)) << changed;
+    }
+}
+
 TEST(SavedStates, AreRefusedWhenTheyAreCutOffOrOfAnotherScene) {
     const auto simulation = simulate(reduced(named("hopper"), 200), oneThread());
     ASSERT_TRUE(simulation->step());

@@ -9,7 +9,7 @@ import unittest
 
 from program import FolderTestCase, json_runner, runner, wait_for
 from serving import Server
-from viewer import Viewer
+from viewer import Controller
 
 BINARY = sys.argv.pop()
 call = runner(BINARY)
@@ -18,13 +18,12 @@ run_json = json_runner(call, "cpu")
 SPAWN = '{"list": {"spheres": [{"position": [0, 0.2, 0.4], "radius": 0.05}]}}'
 
 
-class Random(Viewer):
+class Random(Controller):
     """Sends commands at random, of all kinds that change the world."""
 
     def __init__(self, port, seed):
         super().__init__(port, rate=20)
         self.chance = random.Random(seed)
-        self.sent = 0
 
     def command(self):
         chance, sphere = self.chance, self.chance.randrange(700)
@@ -43,10 +42,6 @@ class Random(Viewer):
             {"reset": {}} if chance.random() < 0.05 else {"release": {}},
         ]
         self.send(chance.choice(commands))
-
-    def send(self, command):
-        self.sent += 1
-        self._send(0x1, json.dumps({"command": {"id": str(self.sent), **command}}).encode())
 
     def decisions(self):
         """Returns how often the goal for quality has moved the substeps."""

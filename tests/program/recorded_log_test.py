@@ -3,12 +3,11 @@
 import json
 import os
 import sys
-import time
 import unittest
 
-from program import FolderTestCase, json_runner, runner
+from program import FolderTestCase, json_runner, runner, wait_for
 from serving import Server
-from viewer import Viewer
+from viewer import Controller
 
 BINARY = sys.argv.pop()
 call = runner(BINARY)
@@ -66,25 +65,24 @@ class RecordedLog(FolderTestCase):
         folder = self.at("recordings")
         with Server(BINARY, "serve", "box-4k", "--device", "cpu", "--hash-every", "5", "--recordings", folder,
                     "--record-log") as server:
-            controller = Viewer(server.port, rate=20)
-            sent = 0
+            controller = Controller(server.port, rate=20)
 
             def send(command):
-                nonlocal sent
-                sent += 1
-                controller._send(0x1, json.dumps({"command": {"id": str(sent), **command}}).encode())
-                controller.wait(lambda one: len(one.of("result")) == sent)
-                self.assertIn("applied", controller.of("result")[-1])
+                self.assertIn("applied", controller.result(controller.send(command)))
+
+            def steps(count):
+                done = server.metrics()["spherule_steps", ""]
+                self.assertTrue(wait_for(lambda: server.metrics()["spherule_steps", ""] >= done + count))
 
             send({"push": {"sphere": 4, "impulse": [0.1, 0, 0]}})
             for k in range(2):
                 send({"startRecording": {}})
                 for sphere in range(8):
                     send({"push": {"sphere": sphere, "impulse": [0.2, 0.1, 0.5]}})
-                    time.sleep(0.05)
+                    steps(2)
                 if k == 1:
                     send({"load": {"name": "cradle"}})
-                    time.sleep(0.2)
+                    steps(10)
                 send({"stopRecording": {}})
                 controller.wait(lambda one, k=k: sum(not state.get("active") for state in one.of("recording")) > k)
             self.assertEqual(server.end(), 0, server.said)
@@ -99,7 +97,7 @@ class RecordedLog(FolderTestCase):
     def test_a_server_that_records_from_its_start_has_the_log_of_its_whole_run(self):
         with Server(BINARY, "serve", "box-4k", "--device", "cpu", "--record", self.recording, "--record-log",
                     "--log", self.at("run.sphl")) as server:
-            time.sleep(1)
+            self.assertTrue(wait_for(lambda: server.metrics()["spherule_steps", ""] > 20))
             self.assertEqual(server.end(), 0, server.said)
         one, other = self.replay(self.recording), self.replay(self.at("run.sphl"))
         self.assertGreater(one["steps"], 10)

@@ -323,7 +323,7 @@ class Export(RecordingTestCase):
         self.assertEqual(self.refused(*export, self.at("there.csv")), f"spherule: {self.at('there.csv')}: is there "
                                                                       "already; give --force to replace it, or another name")
         self.assertEqual(self.refused(*export, self.recording, "--force"),
-                         f"spherule: {self.recording}: is the recording itself; choose another name")
+                         f"spherule: {self.recording}: is the exported file itself; choose another name")
         self.assertIn("is no recording", self.refused("export", __file__, "--format", "csv", "--out", out))
         self.assertIn("No space left on device", self.refused(*export, "/dev/full", "--force", code=4))
 

@@ -8,6 +8,10 @@ from pathlib import Path
 MAKE_BASE = Path(__file__).resolve().parents[2] / "image/make_base.sh"
 
 
+# Variables of programs that fetch packages. tests/run.sh sets PACKAGE_PROXY.
+PROXY = {name: proxy for name in ("http_proxy", "https_proxy") if (proxy := os.environ.get("PACKAGE_PROXY"))}
+
+
 def obstacle():
     return "" if os.geteuid() == 0 else "only root can change to another root"
 
@@ -16,7 +20,7 @@ def make_base(tar):
     """Makes the tar file of the bare Debian if it is missing."""
     if not tar.exists():
         tar.parent.mkdir(parents=True, exist_ok=True)
-        subprocess.run([MAKE_BASE, tar], check=True)
+        subprocess.run([MAKE_BASE, tar], check=True, env=os.environ | PROXY)
 
 
 class DebianRoot:
@@ -36,11 +40,10 @@ class DebianRoot:
         subprocess.run(["rm", "-rf", "--one-file-system", self.path], check=True)
 
     def call(self, *command):
-        """Runs the command in the root, with /proc and without the variables of the caller except those of proxies."""
-        variables = {name: value for name, value in os.environ.items() if "proxy" in name.lower()}
+        """Runs the command in the root, with /proc and without the variables of the caller."""
         inside = ["unshare", "--mount", "sh", "-c", 'mount -t proc proc "$0/proc" && exec chroot "$0" "$@"', self.path]
         return subprocess.run([*inside, *command], capture_output=True, text=True, check=False, errors="replace",
-                              env=variables | {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root",
+                              env=PROXY | {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root",
                                                "DEBIAN_FRONTEND": "noninteractive"})
 
     def install(self, *packages):

@@ -50,6 +50,21 @@ class Server:
         return self._process.returncode
 
     @property
+    def output(self):
+        """All its output, after it has ended."""
+        return "".join(self.greeting) + self.said
+
+    def went_on_from(self):
+        """The step of the checkpoint from which it went on; None if it began with a scene. Call after its end."""
+        found = re.search(r"goes on from \S+ with the scene .*, at step (\d+)", self.output)
+        return int(found.group(1)) if found else None
+
+    def last_checkpoint(self):
+        """The step of the last checkpoint that it has reported to be on the disk; None without one. Call after its end."""
+        steps = re.findall(r"checkpoint \S+ of step (\d+): ", self.output)
+        return int(steps[-1]) if steps else self.went_on_from()
+
+    @property
     def pid(self):
         return self._process.pid
 

@@ -96,14 +96,38 @@ TEST_F(CheckpointFolder, ReturnsErrorsThatAreNotOfTheFile) {
     EXPECT_TRUE(fs::exists(path));
 }
 
+TEST_F(CheckpointFolder, LeavesAFileAloneThatCannotBeRead) {
+    auto folder = Folder::open(place_, 2).value();
+    ASSERT_TRUE(folder.write(exampleWorld(1)));
+    const std::string loop = place_ + "/checkpoint-00000002.sphc";
+    fs::create_symlink(loop, loop);
+    const auto used = folder.useNewest([](const SavedWorld&) -> Result<void> { return {}; },
+                                       [](const Error& error) { ADD_FAILURE() << error.text(); });
+    ASSERT_FALSE(used);
+    EXPECT_EQ(used.error().kind, ErrorKind::Refused);
+    EXPECT_TRUE(used.error().text().starts_with(loop + ": cannot be read")) << used.error().text();
+    EXPECT_TRUE(fs::is_symlink(loop));
+}
+
+TEST_F(CheckpointFolder, SetsFilesAsideUnderNamesThatAreFree) {
+    auto folder = Folder::open(place_, 2).value();
+    const std::string path = place_ + "/checkpoint-00000001.sphc";
+    writeFile(path + ".bad", "of an earlier time");
+    writeFile(path, "x");
+    EXPECT_EQ(newest(folder), 0U);
+    EXPECT_EQ(contentOf(path + ".bad"), "of an earlier time");
+    EXPECT_EQ(contentOf(path + ".bad2"), "x");
+}
+
 TEST_F(CheckpointFolder, LeavesOtherFilesAlone) {
     fs::create_directories(place_);
-    for (const char* const name : {"checkpoint-7.sphc", "checkpoint-18446744073709551615.sphc", "checkpoint-.sphc"})
+    for (const char* const name : {"checkpoint-7.sphc", "checkpoint-18446744073709551615.sphc", "checkpoint-.sphc",
+                                   "checkpoint-1000000000000.sphc"})
         writeFile(place_ + "/" + name, "x");
     auto folder = Folder::open(place_, 1).value();
     EXPECT_EQ(folder.count(), 0U);
     for (const std::uint8_t seed : {1, 2}) ASSERT_TRUE(folder.write(exampleWorld(seed)));
-    EXPECT_EQ(names().size(), 5U);  // one checkpoint, the lock, and the others
+    EXPECT_EQ(names().size(), 6U);  // one checkpoint, the lock, and the others
     // A program that does not know the lock has made the next file.
     writeFile(place_ + "/checkpoint-00000003.sphc", "x");
     EXPECT_EQ(folder.write(exampleWorld(3)).value().path, place_ + "/checkpoint-00000004.sphc");
