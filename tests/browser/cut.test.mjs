@@ -32,7 +32,11 @@ const suite = browserSuite(async (browser) => {
   const file = path.join(suite.folder, "cluster.json");
   writeFileSync(file, JSON.stringify(scene));
   server = await serve(file);
-  page = await open(browser, `${server.url}?tier=fine`, { size: [800, 600], reducedMotion: "reduce" });
+  page = await open(browser, `${server.url}?tier=fine`, {
+    size: [800, 600],
+    deviceScaleFactor: 0.5,
+    reducedMotion: "reduce",
+  });
   await page.keyboard.press(" ");
   await when(page, () => spherule.session.paused);
   await unfold(page, "Show");

@@ -24,7 +24,7 @@ const suite = browserSuite(async (browser) => {
   const file = path.join(suite.folder, "flyer.json");
   writeFileSync(file, JSON.stringify(scene));
   server = await serve(file);
-  page = await open(browser, server.url, { size: [900, 600], reducedMotion: "reduce" });
+  page = await open(browser, server.url, { size: [900, 600], deviceScaleFactor: 0.5, reducedMotion: "reduce" });
 });
 
 /** Where the sphere is on the canvas, and where in the scene (x, m). */

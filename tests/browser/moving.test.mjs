@@ -122,7 +122,12 @@ async function check(page, bodies, places, share = 0.5) {
 }
 
 async function openSmall(url) {
-  const page = await open(suite.browser, `${url}?tier=fine`, { size, reducedMotion: "reduce", colour: "group" });
+  const page = await open(suite.browser, `${url}?tier=fine`, {
+    size,
+    deviceScaleFactor: 0.5,
+    reducedMotion: "reduce",
+    colour: "group",
+  });
   await page.evaluate(() => (document.querySelector(".page").style.display = "none")); // the picture has all the room
   await ticks(page, 6);
   return page;

@@ -31,7 +31,7 @@ browserSuite(async (browser, folder) => {
   const file = path.join(folder, "row.json");
   writeFileSync(file, JSON.stringify(scene));
   server = await serve(file);
-  page = await open(browser, server.url, { colour: "group", size: [760, 560] });
+  page = await open(browser, server.url, { colour: "group", size: [760, 560], deviceScaleFactor: 0.5 });
   await pause(page); // the image settles, and changes are shown all the same
 });
 

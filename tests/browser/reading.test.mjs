@@ -34,7 +34,7 @@ const suite = browserSuite(async (browser, folder) => {
   server = await serve("two-spheres");
   await server.ctl("pause");
   await server.ctl("load", file); // stays paused
-  page = await open(browser, server.url, { size: [1280, 800] });
+  page = await open(browser, server.url, { size: [1280, 800], deviceScaleFactor: 0.5 });
 });
 
 beforeEach(async () => {

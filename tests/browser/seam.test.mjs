@@ -39,7 +39,7 @@ function sceneFile(x) {
 async function withFlyer(x, body) {
   const server = await serve(sceneFile(x));
   try {
-    const page = await open(suite.browser, server.url, { colour: "group", size: [480, 270] });
+    const page = await open(suite.browser, server.url, { colour: "group", size: [480, 270], deviceScaleFactor: 0.5 });
     await body(page, server);
     assert.deepEqual(page.faults, []);
     await page.close();
