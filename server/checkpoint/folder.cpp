@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "core/heartbeat.h"
 #include "core/input_file.h"
 #include "core/log.h"
 #include "recording/output_file.h"
@@ -32,6 +33,7 @@ constexpr const char* lockName = "lock";
 constexpr std::uint64_t mostNumber = 1'000'000'000'000;
 constexpr std::size_t blockBytes = 1U << 20U;
 constexpr int mostSetAside = 1000;
+constexpr std::uint64_t spareBytes = 1U << 20U;  // that stay free for other files
 constexpr double megabyte = 1e6;
 
 std::string nameOf(std::uint64_t number) {
@@ -56,16 +58,21 @@ std::vector<std::uint64_t> numbersIn(const std::string& path, std::error_code& e
     return numbers;
 }
 
-// Opens the lock file. Returns -1 and sets errno if it fails. A folder on a file system that has become read-only is
-// still good to go on from.
-int openLock(const std::string& path) {
+// Opens the lock file in the folder. Returns -1 and sets errno if it fails. One can still go on from a folder whose
+// file system has become read-only.
+int openLock(const std::string& folder) {
+    const std::string path = folder + "/" + lockName;
     const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock >= 0 || (errno != EROFS && errno != EACCES)) return lock;
-    return ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (lock >= 0 || errno != EROFS) return lock;
+    const int readOnly = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (readOnly >= 0) spdlog::warn("{} can only be read: no checkpoint will be written there", folder);
+    if (readOnly < 0) errno = EROFS;
+    return readOnly;
 }
 
 // Refused if the file cannot be read to its end for another reason than its content.
 Result<void> checkReadable(const std::string& path) {
+    const heartbeat::Pause reading;
     const auto no = [&](int error) {
         return fail(ErrorKind::Refused, path,
                     fmt::format("cannot be read: {}; it may be good, and is left alone", std::strerror(error)));
@@ -87,6 +94,9 @@ void setAside(const std::string& path) {
     for (int k = 1; k <= mostSetAside; ++k) {
         const std::string name = k == 1 ? path + passedOver : fmt::format("{}{}{}", path, passedOver, k);
         result = renameat2(AT_FDCWD, path.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE);
+        // This file system does not support RENAME_NOREPLACE.
+        if (result != 0 && (errno == EINVAL || errno == ENOSYS) && access(name.c_str(), F_OK) != 0)
+            result = std::rename(path.c_str(), name.c_str());
         if (result == 0 || errno != EEXIST) break;
     }
     if (result != 0) spdlog::warn("{} cannot be renamed: {}", path, std::strerror(errno));
@@ -126,8 +136,7 @@ Result<Folder> Folder::open(const std::string& path, unsigned keep) {
         return fail(ErrorKind::Input, path,
                     fmt::format("cannot be the folder of checkpoints: {}; choose a folder that can be made and written",
                                 error.message()));
-    const std::string lockPath = path + "/" + lockName;
-    const int lock = openLock(lockPath);
+    const int lock = openLock(path);
     if (lock < 0)
         return fail(
             ErrorKind::Input, path,
@@ -147,7 +156,11 @@ Result<Folder> Folder::open(const std::string& path, unsigned keep) {
         return fail(ErrorKind::Input, path,
                     fmt::format("cannot be read: {}; choose a folder that you may read", error.message()));
     removeParts(path);
-    if (!numbers.empty()) folder.last_ = numbers.back();
+    if (!numbers.empty()) {
+        folder.last_ = numbers.back();
+        const std::uintmax_t bytes = fs::file_size(folder.pathOf(folder.last_), error);
+        if (!error) folder.bytes_ = bytes;
+    }
     return folder;
 }
 
@@ -177,16 +190,35 @@ Result<std::optional<std::string>> Folder::useNewest(const Use& use, const std::
     if (error) return fail(ErrorKind::Refused, path_, fmt::format("cannot be read: {}", error.message()));
     for (; !all.empty(); all.pop_back()) {
         const std::string path = pathOf(all.back());
-        auto world = readCheckpoint(path);
-        auto used = world ? use(std::move(*world)) : Result<void>(tl::unexpected(world.error()));
+        const auto useFile = [&] {
+            auto world = readCheckpoint(path);
+            return world ? use(std::move(*world)) : Result<void>(tl::unexpected(world.error()));
+        };
+        auto used = useFile();
+        if (!used && used.error().kind == ErrorKind::Input) {
+            if (auto readable = checkReadable(path); !readable) return tl::unexpected(readable.error());
+            used = useFile();  // reading may have failed for a moment only
+        }
         if (used) return path;
         if (used.error().where.empty()) used.error().where = path;
         if (used.error().kind != ErrorKind::Input) return tl::unexpected(used.error());
-        if (auto readable = checkReadable(path); !readable) return tl::unexpected(readable.error());
         skipped(used.error());
         setAside(path);
     }
     return std::nullopt;
+}
+
+// Refused if the disk has too little room for a checkpoint of about the size of the last one, or of the state if that
+// is smaller.
+Result<void> Folder::checkRoom(std::uint64_t stateBytes) const {
+    const std::uint64_t bytes = std::min(bytes_, stateBytes);
+    std::error_code error;
+    const auto room = fs::space(path_, error);
+    if (error || room.capacity == 0 || room.available >= bytes + bytes / 8 + spareBytes) return {};
+    if (bytes_ == 0) return {};  // how well the state can be compressed is not known yet
+    return fail(ErrorKind::Refused, path_,
+                fmt::format("the disk has room for {:.1f} MB, a checkpoint takes about {:.1f} MB; make room there",
+                            static_cast<double>(room.available) / megabyte, static_cast<double>(bytes) / megabyte));
 }
 
 Result<Folder::Written> Folder::write(SavedWorld world) {
@@ -194,12 +226,7 @@ Result<Folder::Written> Folder::write(SavedWorld world) {
     std::error_code error;
     while (last_ < mostNumber && fs::exists(pathOf(last_ + 1), error)) ++last_;
     const std::string path = pathOf(last_ + 1);
-    if (const auto room = fs::space(path_, error); !error && room.available < bytes_)
-        return fail(
-            ErrorKind::Refused, path,
-            fmt::format("cannot be written: the disk has room for {:.1f} MB, the last checkpoint took {:.1f} MB; "
-                        "make room there",
-                        static_cast<double>(room.available) / megabyte, static_cast<double>(bytes_) / megabyte));
+    if (auto room = checkRoom(world.state.bytes()); !room) return tl::unexpected(room.error());
     auto file = recording::OutputFile::create(path, false, recording::OutputFile::Appears::WhenClosed);
     if (!file) return tl::unexpected(file.error());
     const std::string head = headOf(FileKind::Checkpoint);

@@ -37,8 +37,8 @@ class Folder {
         std::uint64_t bytes = 0;
     };
     // Writes a checkpoint to the disk. Then removes the oldest ones that are too many. After an error all others are as
-    // before. Refused at once if the disk has less room than the last checkpoint took: filling it up would end other
-    // files, such as the command log.
+    // before. Refused at once if the disk has too little room for a checkpoint of about the size of the last one. A
+    // full disk would end other files, such as the command log.
     Result<Written> write(SavedWorld world);
 
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -49,13 +49,14 @@ class Folder {
     Folder(std::string path, unsigned keep, int lock) : path_(std::move(path)), keep_(keep), lock_(lock) {}
     [[nodiscard]] std::vector<std::uint64_t> numbers() const;  // of the checkpoints there are, ascending
     [[nodiscard]] std::string pathOf(std::uint64_t number) const;
+    [[nodiscard]] Result<void> checkRoom(std::uint64_t stateBytes) const;
     void removeOldest();
 
     std::string path_;
     unsigned keep_;
     int lock_;                 // file descriptor of the lock file
     std::uint64_t last_ = 0;   // number of the last checkpoint
-    std::uint64_t bytes_ = 0;  // size of the last checkpoint that was written
+    std::uint64_t bytes_ = 0;  // size of the last checkpoint
 };
 
 // Returns true for a folder, and for a file that begins as a checkpoint does.

@@ -108,11 +108,11 @@ int serveUntilSignal(const host::ProducerFactory& create, const ServerOptions& s
     if (failure) exitCode = printError(*failure);
     if (clean && logIsWritten()) return exitCode;
     if (!clean && !failure) {
-        const auto checkpoints = (*server)->status().checkpoints;
-        const bool disk = checkpoints && checkpoints->underWay;
+        const bool checkpoint = (*server)->status().checkpoints.has_value();
         exitCode = printError(
-            disk ? Error{ErrorKind::Refused, "checkpoint", "the last one was not on the disk in time: it is too slow"}
-                 : Error{ErrorKind::DeviceLost, "step", "the one under way did not end in time"});
+            checkpoint ? Error{ErrorKind::Refused, "checkpoint",
+                               "the last one was not on the disk in time: the step before it, or the disk, is too slow"}
+                       : Error{ErrorKind::DeviceLost, "step", "the one under way did not end in time"});
     }
     host::endNow(exitCode);
 }

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto longestWaitForEnd = 10s;          // for the current step and the recording
-constexpr auto longestWaitForCheckpoint = 120s;  // for the last checkpoint, if it is being written
+constexpr auto longestWaitForCheckpoint = 120s;  // beyond it, for the last checkpoint
 
 }  // namespace
 
@@ -118,8 +118,7 @@ bool Host::drain() {
     std::unique_lock lock(mutex_);
     bool ended = changed_.wait_for(lock, longestWaitForEnd, [this] { return ended_; });
     const auto checkpoints = board_.read().checkpoints;
-    if (!ended && checkpoints && checkpoints->underWay)
-        ended = changed_.wait_for(lock, longestWaitForCheckpoint, [this] { return ended_; });
+    if (!ended && checkpoints) ended = changed_.wait_for(lock, longestWaitForCheckpoint, [this] { return ended_; });
     const bool lost = failure_ && failure_->kind == ErrorKind::DeviceLost;
     lock.unlock();
     const heartbeat::Pause leaving;  // the producer has ended, so no beats are expected

@@ -69,7 +69,9 @@ std::string Metrics::text(const ServerStatus& status, const net::Counters& net) 
     to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while a viewer watches", status.status.outside());
     to.gauge("spherule_non_finite_spheres", "Spheres without finite state", status.status.non_finite());
     to.gauge("spherule_real_time_factor", "Simulated seconds per wall second", status.status.real_time_factor());
-    to.gauge("spherule_paused", "1 while the simulation, or the playback, is paused", status.status.paused() ? 1 : 0);
+    if (status.state == "running" || status.state == "paused")
+        to.gauge("spherule_paused", "1 while the simulation, or the playback, is paused",
+                 status.state == "paused" ? 1 : 0);
     to.gauge("spherule_steps", "Steps since the scene began", static_cast<double>(status.steps));
     to.gauge("spherule_simulated_seconds", "Simulated time since the scene began", status.simSeconds);
     to.gauge("spherule_list_rebuilds", "Rebuilds of the pair lists since the scene last changed", status.rebuilds);

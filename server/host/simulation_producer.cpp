@@ -61,8 +61,6 @@ Result<void> SimulationProducer::run(const std::stop_token& stop) {
         keeper_->endLogInRecording(host_.simulation());
     else
         keeper_->dropLogInRecording();
-    finishing_ = done && keeper_->hasFolder();
-    if (finishing_) board_.update([](ServerStatus& current) { current.checkpoints->underWay = true; });
     const Result<void> finished = finishRecording();
     if (done) finishState();
     return done ? finished : done;

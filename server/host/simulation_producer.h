@@ -87,7 +87,6 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     std::unique_ptr<checkpoint::Keeper> keeper_;
     static constexpr std::uint64_t notSaved = ~std::uint64_t{0};
     std::uint64_t savedVersion_ = notSaved;  // of the world in the last checkpoint
-    bool finishing_ = false;                 // the last checkpoint is to come, or is written
     Clock::time_point savedAt_{};
     std::unique_ptr<SceneWatch> watch_;
     std::string saved_;  // the file for which the watched scene was loaded last

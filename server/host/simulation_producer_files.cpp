@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/archive.h"
+#include "core/heartbeat.h"
 #include "core/log.h"
 #include "host/resume.h"
 #include "host/simulation_producer.h"
@@ -81,7 +82,6 @@ void SimulationProducer::saveState(Clock::time_point now) {
     const auto begun = keeper_->save(host_.simulation(), stateHead(), now);
     if (begun) {
         savedVersion_ = version_;
-        board_.update([](ServerStatus& current) { current.checkpoints->underWay = true; });
         return;
     }
     notify(v1::Event::WARNING, fmt::format("no checkpoint could be written: {}", begun.error().text()));
@@ -95,7 +95,6 @@ void SimulationProducer::reportCheckpoints() {
     for (const checkpoint::Keeper::Outcome& outcome : keeper_->takeOutcomes()) {
         board_.update([&](ServerStatus& current) {
             ServerStatus::Checkpoints& checkpoints = *current.checkpoints;
-            checkpoints.underWay = finishing_;
             ++(outcome.written ? checkpoints.written : checkpoints.failed);
             if (!outcome.written) return;
             checkpoints.bytes = outcome.written->bytes;
@@ -175,6 +174,7 @@ void SimulationProducer::reportRecording() {
 
 // Finishes the recording, and logs its end: no viewer is notified any more.
 Result<void> SimulationProducer::finishRecording() {
+    const heartbeat::Pause writing;  // the disk may take long
     const auto last = recorder_.finish();
     if (!last) return {};
     if (recorder_.endedEmpty()) {  // a stop before the first frame is in order

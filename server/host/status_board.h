@@ -38,7 +38,6 @@ struct ServerStatus {
         std::uint64_t failed = 0;
         std::uint64_t bytes = 0;                         // of the last one
         std::chrono::steady_clock::time_point safeAt{};  // when the last one was copied; at first, the start
-        bool underWay = false;
     };
     std::optional<Checkpoints> checkpoints;
     std::vector<double> passSeconds;  // device time (s) while passes were timed, by sim::Pass

@@ -22,7 +22,12 @@ const seconds = `${frames / perSecond}s`;
 await spherule("run", scene, "--for", seconds, "--record", file, "--record-rate", "60", "--force", "--device", "cpu");
 const server = await play(file, { options: ["--paused"] });
 const browser = await launch();
-const page = await open(browser, server.url, { size: [960, 740], picture: "full", colour: "id" });
+const page = await open(browser, server.url, {
+  size: [960, 740],
+  deviceScaleFactor: 0.5,
+  picture: "full",
+  colour: "id",
+});
 await page.keyboard.press("c"); // hides the controls, which leaves the whole width to the picture
 await page.evaluate(() => (document.querySelector(".page").style.visibility = "hidden"));
 for (let k = 0; k < frames; k++) {

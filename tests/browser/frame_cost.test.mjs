@@ -47,8 +47,9 @@ test("a camera that moves uploads nothing, and at rest nothing is drawn", async 
   const before = await calls();
   await page.focus(control("picture"));
   for (let k = 0; k < 6; k++) {
+    const { drawn } = await calls();
     await page.keyboard.press(["ArrowLeft", "ArrowUp", "+"][k % 3]);
-    await when(page, (drawn) => spherule.drawn > drawn, (await calls()).drawn);
+    await when(page, (earlier) => spherule.drawn > earlier, drawn);
   }
   await settled(page);
   const moved = await calls();

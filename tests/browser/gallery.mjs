@@ -60,7 +60,12 @@ for (const [name, { time, zoom = 0, quality = "full", colour, readme }] of Objec
   await spherule("run", scene, "--device", "cpu", "--for", `${time + 0.05}s`, "--record", file);
   const server = await play(file);
   const [width, height] = readme ? [1440, 900] : [960, 600]; // px of the page; the picture has half as many
-  const page = await open(browser, server.url, { size: [width, height], picture: quality, colour });
+  const page = await open(browser, server.url, {
+    size: [width, height],
+    deviceScaleFactor: 0.5,
+    picture: quality,
+    colour,
+  });
   await server.ctl("pause");
   await server.ctl("seek", String(time));
   await when(page, (then) => Math.abs((spherule.shown?.time ?? -1) - then) < 0.04, time);

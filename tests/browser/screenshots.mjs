@@ -6,7 +6,12 @@ import { serve } from "./support/server.mjs";
 const folder = process.argv[2] ?? "docs/images";
 const server = await serve("rapids");
 const browser = await launch();
-const page = await open(browser, server.url, { size: [1280, 720], picture: "full", colour: "group" });
+const page = await open(browser, server.url, {
+  size: [1280, 720],
+  deviceScaleFactor: 0.5,
+  picture: "full",
+  colour: "group",
+});
 await when(page, () => spherule.session.newest.simTime > 8);
 await when(page, (factor) => parseFloat(document.querySelector(factor).textContent) > 0.98, control("status-factor"));
 await page.mouse.move(640, 60); // the page loads the tools

@@ -236,7 +236,8 @@ class Serve(Kept):
         report = json.loads(again.stdout)
         self.assertEqual((report["same"], report["complete"], report["step"]), (True, True, saved))
         with self.serve("--checkpoint-every", "1000s") as server:
-            self.assertRegex("".join(server.greeting), rf"goes on from \S+ with the scene box-4k, at step {saved},")
+            server.end()
+        self.assertRegex(server.output, rf"goes on from \S+ with the scene box-4k, at step {saved},")
 
     def test_a_checkpoint_by_command_is_safe_when_it_is_answered(self):
         with self.serve("--checkpoint-every", "1000s", scene="cradle") as server:
@@ -285,8 +286,10 @@ class Serve(Kept):
         log = self.at("log.sphl")
         run_json("cradle", "--for", "0.5s", "--script", early, "--checkpoints", self.kept)
         with self.serve("--checkpoint-every", "1000s", scene="cradle") as server:
+            self.assertTrue(wait_for(lambda: server.metrics()["spherule_steps", ""] > 31))
             self.assertEqual(server.end(), 0, server.said)
         step = server.last_checkpoint()
+        self.assertGreater(step, server.went_on_from())
         run_json("cradle", "--for", f"{step / 60 + 1}s", "--script", script, "--checkpoints", self.kept, "--resume", "--log",
                  log)
         again = call("replay", log, "--device", "cpu", "--json")
@@ -301,7 +304,8 @@ class Serve(Kept):
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_checkpoints_total", ""] == 1))
             server.end(kill=True)
         with self.serve(scene="bounce") as server:
-            self.assertRegex("".join(server.greeting), r"goes on from \S+ with the scene bounce,")
+            server.end()
+        self.assertRegex(server.output, r"goes on from \S+ with the scene bounce,")
 
     def test_the_end_writes_a_checkpoint(self):
         with self.serve("--checkpoint-every", "1000s", scene="cradle") as server:

@@ -120,10 +120,10 @@ class HeavyCommands(unittest.TestCase):
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(PACKED["load"]["scene"], file)
             controller = Controller(server.port)
-            ctl = subprocess.Popen([BINARY, "ctl", "--timeout", "1", server.stream, "load", path], stderr=subprocess.PIPE,
+            ctl = subprocess.Popen([BINARY, "ctl", "--timeout", "4", server.stream, "load", path], stderr=subprocess.PIPE,
                                    text=True)
-            # Progress is sent five times a second, so 12 different shares take longer than the timeout of ctl.
-            controller.wait(lambda one: len({change.get("share") for change in one.of("change")}) > 12)
+            # Progress is sent five times a second, so 24 different shares take longer than the timeout of ctl.
+            controller.wait(lambda one: len({change.get("share") for change in one.of("change")}) > 24)
             self.assertIsNone(ctl.poll())
             controller.ask({"cancel": {}})
             self.assertEqual(ctl.communicate(timeout=30)[1], "refused: cancelled\n")

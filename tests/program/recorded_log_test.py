@@ -70,19 +70,19 @@ class RecordedLog(FolderTestCase):
             def send(command):
                 self.assertIn("applied", controller.result(controller.send(command)))
 
-            def steps(count):
-                done = server.metrics()["spherule_steps", ""]
-                self.assertTrue(wait_for(lambda: server.metrics()["spherule_steps", ""] >= done + count))
+            def frames(count):
+                seen = len(controller.of("frame"))
+                controller.wait(lambda one: len(one.of("frame")) >= seen + count)
 
             send({"push": {"sphere": 4, "impulse": [0.1, 0, 0]}})
             for k in range(2):
                 send({"startRecording": {}})
                 for sphere in range(8):
                     send({"push": {"sphere": sphere, "impulse": [0.2, 0.1, 0.5]}})
-                    steps(2)
+                    frames(2)
                 if k == 1:
                     send({"load": {"name": "cradle"}})
-                    steps(10)
+                    frames(5)
                 send({"stopRecording": {}})
                 controller.wait(lambda one, k=k: sum(not state.get("active") for state in one.of("recording")) > k)
             self.assertEqual(server.end(), 0, server.said)

@@ -87,7 +87,8 @@ Result<std::unique_ptr<Buffer>> CpuBuffer::create(std::string_view label, std::s
         return fail(ErrorKind::Refused, std::string(label),
                     fmt::format("needs {} of memory, of which at most {} are left for this program; use fewer spheres, "
                                 "or give it more",
-                                memory::sizeText(size), memory::sizeText(room.left)));
+                                memory::sizeText(size), memory::sizeText(room.left)),
+                    Cause::NoMemory);
     }
     // Kernels read few words at many places. With huge pages the processor seldom looks up a page that it has not used
     // lately. The system may refuse, and then the pages are small.

@@ -36,7 +36,8 @@ Result<std::unique_ptr<Buffer>> GlBuffer::create(const std::shared_ptr<Context>&
                     fmt::format("the device has no room for {:.1f} MiB ({}); use fewer spheres or a device with more "
                                 "memory",
                                 static_cast<double>(bytes) / (1 << 20),
-                                error == GL_OUT_OF_MEMORY ? "out of memory" : fmt::format("GL error 0x{:x}", error)));
+                                error == GL_OUT_OF_MEMORY ? "out of memory" : fmt::format("GL error 0x{:x}", error)),
+                    Cause::NoMemory);
     }
     return buffer;
 }

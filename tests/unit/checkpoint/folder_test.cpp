@@ -1,7 +1,13 @@
 // The folder of checkpoints.
 #include <gtest/gtest.h>
 
+#include <dlfcn.h>
+#include <sys/statvfs.h>
+
+#include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +15,21 @@
 #include "support.h"
 #include "synced_folders.h"
 #include "temporary_folder.h"
+
+namespace {
+
+std::optional<std::uint64_t> roomOnDisk;  // bytes; nullopt: as it is
+
+}  // namespace
+
+// std::filesystem::space() calls it.
+extern "C" int statvfs(const char* path, struct statvfs* about) noexcept {
+    static const auto real =
+        reinterpret_cast<int (*)(const char*, struct statvfs*)>(dlsym(RTLD_NEXT, "statvfs"));  // NOLINT
+    const int result = real(path, about);
+    if (result == 0 && roomOnDisk) about->f_bavail = *roomOnDisk / about->f_frsize;
+    return result;
+}
 
 namespace spherule::checkpoint {
 namespace {
@@ -161,6 +182,26 @@ TEST_F(CheckpointFolder, NamesAFolderThatIsGone) {
     EXPECT_NE(written.error().text().find(place_), std::string::npos) << written.error().text();
     fs::create_directories(place_);
     EXPECT_TRUE(folder.write(exampleWorld(3)));
+}
+
+TEST_F(CheckpointFolder, DoesNotFillADiskThatIsNearlyFull) {
+    auto folder = std::make_unique<Folder>(Folder::open(place_, 2).value());
+    ASSERT_TRUE(folder->write(exampleWorld(1)));
+    for (const bool again : {false, true}) {  // also the first one after a start
+        if (again) {
+            folder.reset();
+            folder = std::make_unique<Folder>(Folder::open(place_, 2).value());
+        }
+        roomOnDisk = 1U << 20U;
+        const auto written = folder->write(exampleWorld(2));
+        roomOnDisk.reset();
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().kind, ErrorKind::Refused);
+        EXPECT_EQ(names(), (std::vector<std::string>{"checkpoint-00000001.sphc", "lock"}));
+    }
+    roomOnDisk = 10U << 20U;
+    EXPECT_TRUE(folder->write(exampleWorld(2)));
+    roomOnDisk.reset();
 }
 
 TEST_F(CheckpointFolder, RefusesAFileAsAFolder) {
