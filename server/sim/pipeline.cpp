@@ -334,7 +334,8 @@ void Pipeline::requestRebuild() {
 void Pipeline::expectRebuild() {
     listsPending_ = true;
     listsRead_ = false;
-    awaitSpeeds();
+    // What the next substep foretells depends on whether lists are built before it, to read them. So it does not count.
+    unforeseen_ = substepsAhead + 1;
 }
 
 std::vector<glm::vec4> Pipeline::takeImpacts() {

@@ -217,7 +217,7 @@ class Pipeline {
     void expectRebuild();
     void placeFarSlot();
     // Launches the kernels of a rebuild in the next substeps: the speeds, or the length of the substep, have changed.
-    void awaitSpeeds() { unforeseen_ = substepsAhead; }
+    void awaitSpeeds() { unforeseen_ = std::max(unforeseen_, substepsAhead); }
     void chooseLaunches();
     void startWords(std::span<const std::uint32_t> words);
     void clearRows(Array array, std::size_t first, std::size_t count);

@@ -9,6 +9,7 @@ import glob
 import json
 import os
 import random
+import shutil
 import sys
 import tempfile
 import time
@@ -85,7 +86,8 @@ def main():
                 raise AssertionError(server.said)
         done = call("replay", folder + "/commands.sphl", "--device", "cpu", "--json")
         if done.returncode != 0:
-            raise AssertionError(f"the replay differs: {done.stdout}{done.stderr}")
+            kept = shutil.copy(folder + "/commands.sphl", os.path.join(tempfile.gettempdir(), f"kill-rounds-{SEED}.sphl"))
+            raise AssertionError(f"the replay of {kept} differs: {done.stdout}{done.stderr}")
         report = json.loads(done.stdout)
         if not (report["complete"] and report["same"] and report["hashes"] > ROUNDS and report["step"] >= safe):
             raise AssertionError(f"the log is not that of all rounds: {report}")
