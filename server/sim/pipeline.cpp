@@ -334,7 +334,7 @@ void Pipeline::requestRebuild() {
 void Pipeline::expectRebuild() {
     listsPending_ = true;
     listsRead_ = false;
-    // What the next substep foretells depends on whether lists are built before it, to read them. So it does not count.
+    // The next substep foretells otherwise if lists are built before it to read the state, so it does not count.
     unforeseen_ = substepsAhead + 1;
 }
 
